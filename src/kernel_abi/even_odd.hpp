@@ -4,15 +4,15 @@
 #include <initializer_list>
 #include <limits>
 
-// Whether a line passes through a polygon, without rounding: what packets decide by where rounding
-// could decide, and what the scalar reference always does. One definition for both. The functions
-// are inlined wherever they are called, so that kernels have no symbol of them.
+// Decides without rounding whether a line passes through a polygon. The scalar reference always
+// calls this code; packets call it where rounding could change the answer. All functions are
+// inlined wherever they are called, so that the kernels have no symbol of them.
 namespace packtrace::abi {
 
-/// A sum of reals, none of whose digits is lost but to overflow and underflow: an expansion, whose
-/// parts do not overlap and grow, after J. R. Shewchuk, "Adaptive Precision Floating-Point
-/// Arithmetic and Fast Robust Geometric Predicates", Discrete & Computational Geometry 18, 1997.
-/// There is room for `most` calls of add().
+/// An exact sum of reals, except for overflow and underflow. It is stored as an expansion: parts
+/// that do not overlap, in increasing order, after J. R. Shewchuk, "Adaptive Precision
+/// Floating-Point Arithmetic and Fast Robust Geometric Predicates", Discrete & Computational
+/// Geometry 18, 1997. It holds the results of at most `most` calls of add().
 template <class Real, std::size_t most>
 class ExactSum {
 public:
@@ -32,8 +32,9 @@ public:
         count_ = kept;
     }
 
-    /// Adds a b, by T. J. Dekker, "A Floating-Point Technique for Extending the Available
-    /// Precision", Numerische Mathematik 18, 1971: not all processors fuse.
+    /// Adds a b. The rounding error of the product is found as in T. J. Dekker, "A Floating-Point
+    /// Technique for Extending the Available Precision", Numerische Mathematik 18, 1971, because
+    /// not all processors have fused multiply-add.
     [[gnu::always_inline]] void add_product(Real a, Real b)
     {
         if (a == 0 || b == 0)
@@ -55,7 +56,7 @@ public:
             add_product(part, c);
     }
 
-    /// A real of the sum's sign; 0 if it is 0.
+    /// A real with the sign of the sum; 0 if the sum is 0.
     [[nodiscard, gnu::always_inline]] Real sign() const
     {
         return count_ == 0 ? Real(0) : part_[count_ - 1];
@@ -73,7 +74,7 @@ private:
         return product;
     }
 
-    /// x to half its digits.
+    /// x rounded to half its digits.
     [[gnu::always_inline]] static Real upper_half(Real x)
     {
         constexpr int digits = (std::numeric_limits<Real>::digits + 1) / 2;
@@ -85,10 +86,10 @@ private:
     std::size_t count_ = 0;
 };
 
-/// The even-odd rule for a line: how many edges cross a half axis across it, which starts at the
-/// line. Points are seen along the line's longest axis. A corner on the axis counts as above, and
-/// an edge through the line as one that does not cross: polygons that share an edge decide it
-/// alike, whichever way they run along it.
+/// The even-odd rule for a line: counts how many edges cross a half axis that starts at the line.
+/// Corners are projected along the longest axis of the line's direction. A corner on the half axis
+/// counts as above it, and an edge through the line counts as not crossing. So polygons that share
+/// an edge agree about it, whichever way each of them runs along the edge.
 template <class Real>
 class EvenOdd {
 public:
@@ -128,19 +129,20 @@ public:
 
 private:
     static constexpr Real roundoff = std::numeric_limits<Real>::epsilon() / 2;
-    /// Longer directions are made shorter, by a power of 2: products with far origins overflow.
+    /// Longer directions are scaled down by a power of 2, as products with far origins would
+    /// overflow.
     static constexpr Real large = 0x1p20;
     static constexpr Real largest = std::numeric_limits<Real>::max();
     static constexpr Real smaller = 0x1p-64;
 
-    /// A corner, also relative to the origin, which rounds.
+    /// A corner, and the corner relative to the line's origin, which is rounded.
     struct Corner {
         Real at[3];
         Real off[3];
         bool above;
     };
 
-    /// What rounding took of a corner's difference to the origin.
+    /// The rounding error of a corner relative to the origin.
     struct Lost {
         Real off[3];
     };
@@ -150,7 +152,7 @@ private:
         return x < 0 ? -x : x;
     }
 
-    /// `x` by the sign of the direction along the longest axis.
+    /// `x`, negated if the direction's longest component is negative.
     [[nodiscard, gnu::always_inline]] Real turned(Real x) const
     {
         return dir_[along_] < 0 ? -x : x;
@@ -177,13 +179,14 @@ private:
         return lost;
     }
 
-    /// A real of the sign of v d_z - z d_v, z being the longest axis and v the second after it.
+    /// A real with the sign of v d_z - z d_v, where z is the longest axis and v the second axis
+    /// after it.
     [[nodiscard, gnu::always_inline]] Real height(const Corner& corner) const
     {
         const Real across = corner.off[across_] * dir_[along_];
         const Real along = corner.off[along_] * dir_[across_];
         const Real rounded = across - along;
-        // A difference, a product and their difference each round once.
+        // Two differences and a product round once each.
         if (magnitude(rounded) > 4 * roundoff * (magnitude(across) + magnitude(along)))
             return rounded;
         const Lost lost = lost_of(corner);
@@ -195,7 +198,7 @@ private:
         return sum.sign();
     }
 
-    /// A real of the sign of (a x b)·d.
+    /// A real with the sign of (a x b)·d.
     [[nodiscard, gnu::always_inline]] Real side_of_edge(const Corner& a, const Corner& b) const
     {
         Real rounded = 0;
@@ -208,7 +211,7 @@ private:
             rounded += (left - right) * dir_[i];
             size += (magnitude(left) + magnitude(right)) * magnitude(dir_[i]);
         }
-        // Each of six terms rounds seven times at most.
+        // Each of the six terms is rounded at most seven times.
         if (magnitude(rounded) > 8 * roundoff * size)
             return rounded;
         return exact_side_of_edge(a, b);
@@ -234,7 +237,7 @@ private:
     Real org_[3];
     Real dir_[3];
     int along_ = 0;   ///< the longest axis
-    int across_ = 0;  ///< the second after it
+    int across_ = 0;  ///< the second axis after it
     Corner last_{};
     bool inside_ = false;
 };

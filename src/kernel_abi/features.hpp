@@ -4,14 +4,15 @@
 
 namespace packtrace::abi {
 
-/// What a scene uses that kernels may be compiled without. Kernels are compiled for feature sets,
-/// and have no branch, no array and no pass for what theirs lacks.
+/// Features of a scene that kernels may be compiled without. A kernel is compiled for one feature
+/// set and has no branch, array or pass for the features that the set lacks.
 struct Features {
     bool quadrics = false;  ///< surfaces other than spheres and planes
-    bool colored = false;   ///< children whose weight differs from channel to channel
-    bool glass = false;     ///< refracted rays, or shadows that let light through
-    bool probe = false;     ///< reports of single rays to TileJob::probe
-    /// Rays in single precision are decided by certain tests and refined in double.
+    bool colored = false;   ///< child rays whose weight differs between channels
+    bool glass = false;     ///< refracted rays, or shadows that transmit light
+    bool probe = false;     ///< records single rays for TileJob::probe
+    /// Exact mode: rays in single precision are tested with error bounds, and hits are refined in
+    /// double.
     bool exact = false;
 };
 
@@ -21,8 +22,8 @@ struct FeatureSet {
     Features features;
 };
 
-/// A scene runs the first compiled in that covers it. Which features have a set of their own is
-/// measured: results/feature_sets.json.
+/// A scene is rendered by the first compiled set that covers it. results/feature_sets.json has the
+/// measurements that chose these sets.
 inline constexpr FeatureSet feature_sets[] = {
     {"spheres", {}},
     {"general", {.quadrics = true, .colored = true, .glass = true}},
@@ -31,30 +32,30 @@ inline constexpr FeatureSet feature_sets[] = {
 inline constexpr int feature_set_count = sizeof(feature_sets) / sizeof(FeatureSet);
 /// Renders every scene.
 inline constexpr int general_set = feature_set_count - 2;
-/// Renders every scene, and tells of its rays.
+/// Renders every scene and records its rays.
 inline constexpr int probe_set = feature_set_count - 1;
 
-/// A probe is never chosen for a scene that does not ask for it.
+/// A set with a probe is chosen only for a scene that asks for one.
 constexpr bool covers(Features set, Features needed)
 {
     return (set.quadrics || !needed.quadrics) && (set.colored || !needed.colored) &&
            (set.glass || !needed.glass) && set.probe == needed.probe && set.exact == needed.exact;
 }
 
-/// What of a set makes a difference to how rays find objects: kernels share that code.
+/// The features that affect how rays find objects. Sets that agree in these share that code.
 constexpr Features tree_features(Features set)
 {
     return {.quadrics = set.quadrics, .exact = set.exact};
 }
 
-/// A set for rays in the other way of deciding hits.
+/// The same set with `exact` replaced.
 constexpr Features with_exact(Features set, bool exact)
 {
     set.exact = exact;
     return set;
 }
 
-/// How many numbers a ray's weight takes.
+/// How many numbers the weight of a ray has.
 constexpr std::size_t weight_channels(Features set)
 {
     return set.colored ? 3 : 1;

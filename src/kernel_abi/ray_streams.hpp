@@ -2,7 +2,7 @@
 
 #include <cstdint>
 
-// Rays given by the caller, and what they hit; arrays of any alignment, without padding.
+// Rays from the caller and their hits. Arrays have any alignment and no padding.
 namespace packtrace::abi {
 
 template <class Real>
@@ -12,17 +12,17 @@ struct RaysView {
     const Real* t_min = nullptr;  ///< >= 0
     const Real* t_max = nullptr;
     int count = 0;
-    // Where rays start that leave hits found before, which the closest hit alone asks for: the
-    // hit's point, and its surface, or where they start on the inner side of it the complement;
-    // `no_start` for a ray from elsewhere. Null where none starts so.
+    // Only closest hits read these: rays that start at hits found earlier. `start_surface` is the
+    // surface of that hit, or its bitwise complement for a ray that starts on the inner side, or
+    // `no_start`. Null if no ray starts at a hit.
     const Real* start_point[3] = {};
     const std::int32_t* start_surface = nullptr;
 };
 
 inline constexpr std::int32_t no_start = INT32_MIN;
 
-/// Points that a light is looked for from: hits' own, with their surfaces; one from elsewhere has a
-/// number below 0, and all are where `surface` is null.
+/// Points for which visibility of a light is asked. `surface` is the surface that a point is on, or
+/// negative for a point on no surface; null if no point is on a surface.
 template <class Real>
 struct PointsView {
     const Real* point[3] = {};
@@ -30,21 +30,21 @@ struct PointsView {
     int count = 0;
 };
 
-/// Results of closest hits; `object` is -1 and `t` the ray's t_max for a miss.
+/// Results of closest hits. For a miss, `object` is -1 and `t` is the ray's t_max.
 template <class Real>
 struct HitsView {
     Real* t = nullptr;
     std::int32_t* object = nullptr;
-    Real* normal[3] = {};  ///< outward and unit; null where not wanted
-    // Where rays may start from the hit on either side of the surface; null where not wanted.
+    Real* normal[3] = {};  ///< outward, unit; null if not wanted
+    // Where rays that leave the hit on either side of the surface may start; null if not wanted.
     Real* outer_start[3] = {};
     Real* inner_start[3] = {};
-    Real* point[3] = {};              ///< the hit's own, likewise
-    std::int32_t* surface = nullptr;  ///< likewise
+    Real* point[3] = {};              ///< the hit itself; null if not wanted
+    std::int32_t* surface = nullptr;  ///< null if not wanted
 };
 
-/// Takes the hits of all rays one by one, those of a ray in no order. `t` is as the search had it,
-/// so that hits sort right that round to one t in `Real`.
+/// Receives the hits of all rays one by one. The hits of a ray come in no order. `t` has the
+/// precision of the search, so hits whose t are equal in `Real` can still be sorted.
 template <class Real>
 struct HitSink {
     void* context = nullptr;

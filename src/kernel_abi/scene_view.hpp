@@ -7,12 +7,13 @@
 
 namespace packtrace::abi {
 
-/// How many glass bodies a ray remembers to be inside of.
+/// The size of a ray's medium stack: the largest number of glass bodies that a ray can be inside
+/// of.
 inline constexpr int glass_depth = 8;
 
-/// What a ray's t and the light's way count in: the notes differ.
+/// The unit of t and of the distance to a light. The notes differ in it.
 enum class RayUnits : std::int32_t {
-    as_given,  ///< directions keep the length they come with (note 001)
+    as_given,  ///< directions keep the length they are given with (note 001)
     unit       ///< directions are unit
 };
 
@@ -24,69 +25,70 @@ struct GeometryView {
     RecordList<PlaneRecord<Real>> planes;
     RecordList<QuadricRecord<Real>> quadrics;
     RecordList<PolygonRecord<Real>> polygons;
-    BvhView<Real> tree;  ///< holds what the lists do not
-    /// Every coordinate and size is of a magnitude that error bounds in single precision hold for.
+    BvhView<Real> tree;  ///< holds the objects that are not in the lists
+    /// Every coordinate and size has a magnitude for which the error bounds in single precision
+    /// hold.
     bool certifiable = false;
 };
 
-/// What hits are made of.
+/// The materials of surfaces.
 template <class Real>
 struct MaterialsView {
     const MaterialIndex* of_surface = nullptr;
-    bool surfaces_are_objects = false;  ///< each surface has the number of its object
+    bool surfaces_are_objects = false;  ///< the number of each surface is that of its object
     const MaterialRecord<Real>* records = nullptr;
-    const CheckerRecord<Real>* checkers = nullptr;  ///< null without any
+    const CheckerRecord<Real>* checkers = nullptr;  ///< null if there are none
     /// Refractive index by object; [-1] is outside everything.
     const Real* ior = nullptr;
 };
 
-/// What light does at hits.
+/// The lights of a scene.
 template <class Real>
 struct LightingView {
     RecordList<LightRecord<Real>> lights;  ///< ambient light is in the materials
-    /// By light, its own view of the hierarchy of exact mode; null where there is none.
+    /// By light, its light buffer (exact mode only); null if there are none.
     const LightBuffer* buffers = nullptr;
-    /// No light reaches anything and nothing is mirrored or refracted: hits show their ambient
-    /// light, and need no normals.
+    /// No light reaches any object and nothing reflects or refracts: hits show their ambient light
+    /// and need no normals.
     bool flat = false;
-    bool transparent_shadows = false;  ///< occluders pass on their transmitted share
-    /// How near to parallel a ray that escapes runs to a light that it sees (note 000); 0: lights
-    /// are not seen.
+    bool transparent_shadows = false;  ///< occluders transmit a share of the light
+    /// A ray that hits nothing sees a light if the sine of the angle between them is at most this
+    /// (note 000). 0: lights are not visible.
     Real seen_within = 0;
-    /// A light makes a highlight where its N·L is larger: 0, or -infinity where lights behind the
-    /// surface make one too.
+    /// A light causes a highlight where N·L is larger than this: 0, or -infinity if lights behind
+    /// the surface cause highlights too.
     Real highlight_above = 0;
 };
 
-/// Where rays start, what they count in and what those that end bring.
+/// Rules of the notes for rays: start, units, depth, and the light of rays that end.
 template <class Real>
 struct RayRules {
     RayUnits units = RayUnits::as_given;
     int max_depth = 0;
     Real background[3] = {};
-    Real limit_color[3] = {};  ///< what rays beyond the depth limit bring
-    /// A mirrored or refracted ray is not traced where its weight is below this in every channel;
-    /// 0: all are.
+    Real limit_color[3] = {};  ///< light of rays beyond the depth limit
+    /// A reflected or refracted ray is not traced if its weight is below this in every channel. 0:
+    /// all are traced.
     Real min_weight = 0;
-    /// By generation, the most light that a ray can bring in each channel; null where all rays are
+    /// By generation, the most light that a ray can return in each channel; null if all rays are
     /// traced.
     const MostLight* most_light = nullptr;
-    /// Secondary and shadow rays start this far along their direction.
+    /// Secondary and shadow rays start at this t.
     Real secondary_t_min = 0;
-    /// Share of the coordinates there by which they start off the surface; 0 for none. If any,
-    /// their own surface is solved as one they are on.
+    /// Rays start off their surface by this share of the coordinates there; 0 for none. If not 0,
+    /// hits with the surface that a ray starts on are found as the other root of its equation.
     Real start_error = 0;
 };
 
 /// A lowered scene in one precision, as the kernels see it.
 template <class Real>
 struct SceneView : GeometryView<Real> {
-    /// Where shadow rays find their occluders, of which only the geometry counts; null where that
-    /// is here, as every object casts shadows.
+    /// The scene that shadow rays are traced in, of which only the geometry is read; null if that
+    /// is this scene, as every object casts shadows.
     const SceneView* casters = nullptr;
 
-    /// The same geometry in double, list by list in the same order, which rays in single precision
-    /// that are unsure of their hit are traced in again; null in fast mode and for doubles.
+    /// The same geometry in double, in the same order. Unsure rays in single precision are traced
+    /// again in it. Null in fast mode and in double.
     const GeometryView<double>* wide = nullptr;
     ShapesView shapes;
 
@@ -95,8 +97,8 @@ struct SceneView : GeometryView<Real> {
     RayRules<Real> rules;
 };
 
-/// The camera over the canvas: the direction of the pixel in column i, row j is
-/// forward + x right + y up with x = i + first_x, y = first_y - j.
+/// The camera. The direction of the pixel in column i and row j is forward + x right + y up with x
+/// = i + first_x and y = first_y - j.
 template <class Real>
 struct CameraView {
     Real origin[3] = {};
@@ -105,8 +107,9 @@ struct CameraView {
     Real forward[3] = {};
     Real first_x = 0;
     Real first_y = 0;
-    Real t_min = 0;  ///< camera rays hit nothing nearer
-    /// The glass the eye is in, by object number, innermost first; -1 ends it.
+    Real t_min = 0;  ///< camera rays have hits beyond this only
+    /// The initial medium stack: the glass bodies that the camera is in, by object number,
+    /// innermost first; -1 ends the list.
     std::int32_t inside[glass_depth] = {-1, -1, -1, -1, -1, -1, -1, -1};
 };
 

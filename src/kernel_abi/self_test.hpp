@@ -4,7 +4,7 @@
 
 namespace packtrace::abi {
 
-/// The operations of kernels/simd/simd.hpp, for tests that hold each against plain scalar code.
+/// The operations of kernels/simd/simd.hpp. Tests compare each with plain scalar code.
 enum class SimdOp : std::int32_t {
     add,
     sub,
@@ -60,9 +60,10 @@ enum class SimdOp : std::int32_t {
 
 inline constexpr int simd_op_count = static_cast<int>(SimdOp::all) + 1;
 
-/// One packet of operands in, one packet of results out. Masks come in as a < b (a second one as
-/// b < c), and go out as 1 and 0 in `reals`; a truth value or bit pattern fills `integers`. Shifts
-/// are by the mantissa's bits. `halves` is a b - c in double, rounded once, for floats.
+/// One packet of operands and one packet of results. An operand mask is a < b, a second one b < c.
+/// Masks are returned in `reals` as 1 and 0; a truth value or bit pattern is returned in every
+/// element of `integers`. Shifts are by the number of mantissa bits. For floats, `halves` is a b -
+/// c in double, rounded once.
 template <class Real>
 struct SelfTestJob {
     SimdOp op = SimdOp::add;

@@ -2,8 +2,8 @@
 
 #include <cstdint>
 
-// What shading needs to know of objects, materials and lights. Records hold only `Real` fields
-// where kernels fetch them by lane, so that a record is an array of its fields.
+// The records of objects, materials and lights that shading reads. Records that kernels load by
+// lane hold only `Real` fields, so that a record is an array of its fields.
 namespace packtrace::abi {
 
 /// I = local (ambient + Σ light (diffuse max(0, N·L) + highlight max(0, R·V)^shininess))
@@ -17,12 +17,12 @@ struct MaterialRecord {
     Real local[3];
     Real transmit[3];
     Real shininess;
-    /// Cosines below this give a highlight that is exactly 0.
+    /// Cosines below this have a highlight that is exactly 0.
     Real highlight_floor;
 };
 
-/// Where a surface finds its object and material: `first`, or with a checker the one after it on
-/// the squares of the other colour.
+/// The object and material of a surface. The material is `first`; with a checker it is `first + 1`
+/// on the squares of the other colour.
 struct MaterialIndex {
     std::int32_t first;
     std::int32_t checker;  ///< index into the checkers, -1 for none
@@ -37,7 +37,7 @@ struct CheckerRecord {
     Real v[3];
 };
 
-/// The most light that a ray can bring.
+/// Upper bound of the light that a ray can return.
 struct MostLight {
     double channel[3];
 };
@@ -50,7 +50,7 @@ struct LightRecord {
     Real vector[3];  ///< position, or direction towards the light
     LightKind kind;
     bool casts_shadow;
-    bool sends_rays;  ///< its shadow rays start at it; else at the points that it may light
+    bool sends_rays;  ///< its shadow rays start at the light; else at the points that it may light
 };
 
 }  // namespace packtrace::abi

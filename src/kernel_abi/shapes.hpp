@@ -4,12 +4,12 @@
 
 #include <cstdint>
 
-// Surfaces in double, found by surface number, whatever the precision of the rays: what a hit's
-// point and normal come from, and what a ray that starts on a surface is held against.
+// Surfaces in double, by surface number, whatever the precision of the rays. Points and normals of
+// hits are computed from them, and rays that start on a surface are tested against them.
 namespace packtrace::abi {
 
 enum class SurfaceKind : std::uint32_t {
-    none,  ///< no object of this view, as where those that cast no shadow are left out
+    none,  ///< no object of this view: objects that cast no shadow may be omitted
     sphere,
     anchored_sphere,
     plane,
@@ -19,11 +19,12 @@ enum class SurfaceKind : std::uint32_t {
     polygon
 };
 
-/// Where the record of a surface is: in the array of its kind (caps: of quadrics).
+/// The index of a surface's record in the array of its kind (for caps: of quadrics).
 struct SurfaceIndex {
     std::uint32_t record : 28;
     SurfaceKind kind : 3;
-    std::uint32_t faces_viewer : 1;  ///< the normal is turned against the ray, else outwards
+    /// The normal is flipped to face the viewer; else it points outwards.
+    std::uint32_t faces_viewer : 1;
 };
 
 struct SphereShape {
@@ -32,13 +33,13 @@ struct SphereShape {
 };
 
 struct ShapesView {
-    const SurfaceIndex* index = nullptr;  ///< by surface
+    const SurfaceIndex* index = nullptr;  ///< by surface number
     const SphereShape* spheres = nullptr;
     const AnchoredSphere<double>* anchored_spheres = nullptr;
     const PlaneRecord<double>* planes = nullptr;
     const QuadricRecord<double>* quadrics = nullptr;
     const PolygonRecord<double>* polygons = nullptr;
-    /// Some surface may be hit again by rays that leave it on its outer side.
+    /// Some surface may be hit again by a ray that leaves it on its outer side.
     bool hit_again_outside = false;
 };
 

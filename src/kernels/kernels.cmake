@@ -1,15 +1,17 @@
-# The kernels: one source, one OBJECT library per instruction set with its own -m flags. They
-# never see link-time optimisation, and are optimised in debug builds and in builds of no type too
-# (xsimd 8.1 does not compile for AVX-512 at -O0). They are position-independent, for the shared
-# library; as their symbols are hidden, this costs nothing.
+# The kernels: one source, one OBJECT library per instruction set with its own -m flags. They are
+# never built with link-time optimisation. They are optimised in debug builds and in builds without
+# a type too, because xsimd 8.1 does not compile for AVX-512 at -O0. They are position-independent
+# for the shared library, which costs nothing as their symbols are hidden.
 #
-# -finline-limit and its kin make GCC inline xsimd's one-line functions everywhere, so that no
-# weak copy of them leaves the object. -Wno-maybe-uninitialized: GCC 12's own AVX-512 header
-# starts from undefined registers. -fno-lto: a project around this one may ask for it. -fno-stack-protector: Ubuntu's compilers guard each function that
-# has arrays on its stack, which is every one here, and call libc where a guard is broken.
-# Probes are asked for shares of a frame, not for speed: they execute some 10 % more instructions so,
-# and take little more than half as long to build, which with all instruction sets is a minute and a
-# half of one core.
+# -finline-limit and the parameters after it make GCC inline xsimd's one-line functions everywhere,
+# so that no weak copy of them leaves the object. -Wno-maybe-uninitialized: GCC 12's own AVX-512
+# header reads undefined registers. -fno-lto: a surrounding project may ask for it.
+# -fno-stack-protector: Ubuntu's compilers guard every function that has an array on its stack,
+# which here is nearly every function, and call libc if a guard is overwritten.
+#
+# The probe kernels measure shares of a frame, not speed. With these flags they execute about 10 %
+# more instructions, and compile in little more than half the time: a minute and a half of one core
+# for all instruction sets.
 set_source_files_properties(kernels/probe_kernels.cpp PROPERTIES
     COMPILE_OPTIONS "${packtrace_quick_flags}")
 
@@ -17,39 +19,39 @@ set(PACKTRACE_ISAS "all" CACHE STRING
     "Instruction sets to compile kernels for: all, or a list such as sse42;avx2")
 set(PACKTRACE_KERNELS "" CACHE INTERNAL "Instruction sets compiled in")
 
-# Those that frames are rendered by where time counts have kernels for sets of features
-# (kernel_abi/features.hpp); the others, fallbacks for old processors and for comparison, have the
-# general ones only: each set costs seconds to build and a quarter of a megabyte.
+# The instruction sets that matter for speed have kernels for feature sets
+# (kernel_abi/features.hpp). The others, fallbacks for old processors and for comparison, have only
+# the general kernels: each feature set takes seconds to build and a quarter of a megabyte.
 set(with_feature_sets avx2 avx512 neon64)
 option(PACKTRACE_FEATURE_SETS "Kernels for sets of features; without them, the general ones only" ON)
 
-# Before the flags of an instruction set, so that those of a project around this one add none.
+# These flags come before those of the instruction set, and override those of a surrounding project.
 set(baseline "")
 if(CMAKE_SYSTEM_PROCESSOR MATCHES "x86_64|AMD64")
     set(baseline -march=x86-64 -mno-avx)
 endif()
 
-# Unless PACKTRACE_ISAS leaves it out.
+# Adds the kernels of an instruction set, unless PACKTRACE_ISAS excludes it.
 function(packtrace_kernel isa lanes)
     if(NOT PACKTRACE_ISAS STREQUAL "all" AND NOT isa IN_LIST PACKTRACE_ISAS)
         return()
     endif()
     file(GLOB kernel_sources CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/kernels/*.cpp)
-    # Only studies ask single rays what became of them.
+    # Only studies record single rays.
     if(NOT PACKTRACE_BUILD_STUDY)
         list(FILTER kernel_sources EXCLUDE REGEX "/probe_kernels\\.cpp$")
     endif()
     add_library(packtrace_kernels_${isa} OBJECT ${kernel_sources})
-    # Fallbacks inline less: they build a seventh faster, and execute up to 1 % more for frames and
-    # up to 5 % more for rays (results/feature_sets.json).
+    # Fallbacks inline less: they build a seventh faster, and execute up to 1 % more instructions for
+    # frames and up to 5 % more for rays from callers (results/feature_sets.json).
     set(feature_sets 0)
     set(inline_limit 1200)
     if(PACKTRACE_FEATURE_SETS AND isa IN_LIST with_feature_sets)
         set(feature_sets 1)
         set(inline_limit 100000)
     endif()
-    # The fallback of processors without AVX builds a third faster so, and executes 1 to 7 % more
-    # (results/feature_sets.json).
+    # With -O1 the fallback for processors without AVX builds a third faster, and executes 1 to 7 %
+    # more instructions (results/feature_sets.json).
     set(optimisation ${packtrace_frame_flags})
     if(isa STREQUAL "sse42")
         set(optimisation -O1)
@@ -71,13 +73,13 @@ function(packtrace_kernel isa lanes)
     set(PACKTRACE_KERNELS ${PACKTRACE_KERNELS} ${isa} CACHE INTERNAL "")
 endfunction()
 
-# The same kernels in packets of one lane, which no compiler makes wider: what lanes give is told
-# apart from what the algorithm gives.
+# The same kernels with packets of one lane, which the compiler must not vectorise: they separate
+# what SIMD gains from what the algorithm gains.
 set(not_vectorised -fno-tree-vectorize -fno-tree-slp-vectorize)
 
-# What GCC moves out of loops and branches it mostly has no registers for: without that, AVX2's
-# frames execute 1 to 2 % fewer instructions, and rays up to 6 % (results/feature_sets.json). AVX-512
-# has twice as many registers, and was not measured.
+# GCC moves values out of loops and branches, for which AVX2 mostly has no registers left. Without
+# that, frames on AVX2 execute 1 to 2 % fewer instructions, and rays up to 6 % fewer
+# (results/feature_sets.json). AVX-512 has twice as many registers, and was not measured.
 set(few_registers
     $<$<CXX_COMPILER_ID:GNU>:-fno-code-hoisting$<SEMICOLON>-fno-tree-loop-im>)
 
@@ -105,7 +107,8 @@ if(NOT PACKTRACE_KERNELS)
     message(FATAL_ERROR "packtrace: PACKTRACE_ISAS is empty; give all, or a list such as sse42;avx2")
 endif()
 
-# What src/dispatch knows them by: one line KERNELS(isa) each, and one PROBES(isa).
+# The list that src/dispatch includes: KERNELS(isa), and PROBES(isa) if built, for each instruction
+# set.
 set(kernel_list "")
 foreach(isa IN LISTS PACKTRACE_KERNELS)
     string(APPEND kernel_list "KERNELS(${isa})\n")

@@ -10,15 +10,17 @@ namespace {
 constexpr abi::FeatureSet probe = abi::feature_sets[abi::probe_set];
 static_assert(probe.features.probe);
 
-template <bool Exact, class Real>
+constexpr abi::Features exact = abi::with_exact(probe.features, true);
+constexpr abi::Features fast = abi::with_exact(probe.features, false);
+
+template <abi::Features F, class Real>
 constexpr abi::FeatureKernels<Real> kernels()
 {
-    constexpr abi::Features F = abi::with_exact(probe.features, Exact);
     return {{probe.name, F}, scratch_bytes<F, Real>, render_tiles<F, Real>, nullptr};
 }
 
-constexpr abi::ProbeKernels probes = {kernels<true, float>(), kernels<false, float>(),
-                                      kernels<false, double>()};
+constexpr abi::ProbeKernels probes = {kernels<exact, float>(), kernels<fast, float>(),
+                                      kernels<fast, double>()};
 
 }  // namespace
 

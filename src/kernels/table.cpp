@@ -31,22 +31,26 @@ void power_of_arrays(const Real* x, const Real* n, Real* y, int count)
     }
 }
 
-/// Sets of features are for the default mode; fast mode and double, in which truths are rendered,
-/// have the general ones. Probes are compiled in probe_kernels.cpp.
+/// Whether hits are decided with error bounds (Features::exact).
+enum class Mode { exact, fast };
+
+/// Feature sets are compiled for exact mode with floats. Fast mode and double, which renders
+/// reference pictures, have only the general set. Probes are compiled in probe_kernels.cpp.
 template <class Real>
-constexpr bool is_compiled(int set, bool exact)
+constexpr bool is_compiled(int set, Mode mode)
 {
+    const bool exact = mode == Mode::exact;
     if (set == abi::probe_set || (exact && sizeof(Real) != sizeof(float)))
         return false;
     return (PACKTRACE_FEATURE_SETS && exact) || set == abi::general_set;
 }
 
-template <int Set, bool Exact, class Real>
+template <int Set, Mode M, class Real>
 constexpr abi::FeatureKernels<Real> feature_kernels()
 {
-    constexpr abi::Features F = abi::with_exact(abi::feature_sets[Set].features, Exact);
+    constexpr abi::Features F = abi::with_exact(abi::feature_sets[Set].features, M == Mode::exact);
     constexpr abi::FeatureSet set{abi::feature_sets[Set].name, F};
-    if constexpr (!is_compiled<Real>(Set, Exact))
+    if constexpr (!is_compiled<Real>(Set, M))
         return {};
     else
         return {set, scratch_bytes<F, Real>, render_tiles<F, Real>,
@@ -57,22 +61,22 @@ template <class Real, int... Set>
 constexpr void set_feature_kernels(abi::PrecisionTable<Real>& table,
                                    std::integer_sequence<int, Set...>)
 {
-    ((table.kernels[Set] = feature_kernels<Set, true, Real>()), ...);
-    ((table.kernels[abi::feature_set_count + Set] = feature_kernels<Set, false, Real>()), ...);
+    ((table.kernels[Set] = feature_kernels<Set, Mode::exact, Real>()), ...);
+    ((table.kernels[abi::feature_set_count + Set] = feature_kernels<Set, Mode::fast, Real>()), ...);
 }
 
-/// Rays of the caller's own, in the way that the scene was made for.
-template <bool Exact>
-inline constexpr abi::Features any_surface{.quadrics = true, .exact = Exact};
+/// The features for rays from the caller, in the mode that the scene was made for.
+inline constexpr abi::Features exact_surfaces{.quadrics = true, .exact = true};
+inline constexpr abi::Features fast_surfaces{.quadrics = true};
 
-/// `call.template operator()<F>()` with the features of the way that a scene was made for.
+/// Returns `call.template operator()<F>()` with the features of the mode that a scene was made for.
 template <class Real, class Call>
 inline auto with_surfaces(const abi::SceneView<Real>& scene, const Call& call)
 {
     if constexpr (sizeof(Real) == sizeof(float))
         if (scene.wide != nullptr)
-            return call.template operator()<any_surface<true>>();
-    return call.template operator()<any_surface<false>>();
+            return call.template operator()<exact_surfaces>();
+    return call.template operator()<fast_surfaces>();
 }
 
 template <class Real>

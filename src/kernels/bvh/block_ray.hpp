@@ -2,19 +2,19 @@
 
 #include "kernels/bvh/leaf_bounds.hpp"
 
-// One ray against the spheres of a block side by side, by the operations that test one sphere
+// Tests one ray against the spheres of a block side by side, by the operations that test one sphere
 // against a packet of rays, so with the same bits.
 namespace packtrace::PACKTRACE_ISA {
 namespace {
 
-/// As many values of a block from `first` on as a packet has lanes.
+/// Loads a packet of a block's values from `first` on.
 template <class Real>
 inline vreal<Real> load_of_block(const Real* block, int first)
 {
     return load(block + first);
 }
 
-/// One ray in every lane.
+/// One ray of a bundle, in every lane.
 template <class Real>
 inline RayPacket<Real> broadcast_ray(const RayBundle<Real>& bundle, int ray)
 {
@@ -30,7 +30,7 @@ inline RayPacket<Real> broadcast_ray(const RayBundle<Real>& bundle, int ray)
     return rays;
 }
 
-/// The ray, a sphere a lane.
+/// One ray, tested against one sphere per lane.
 template <class Real>
 class BlockRay {
     static_assert(abi::node_width % lanes<Real> == 0);
@@ -40,7 +40,7 @@ public:
     {
     }
 
-    /// A bit for each sphere that the ray meets up to `t_max`, and where it does so first.
+    /// A bit for each sphere that the ray hits up to `t_max`, and the t of each first hit.
     std::uint32_t first_roots(const abi::SphereBlock<Real>& block, Real t_max,
                               Real (&t)[abi::node_width]) const
     {
@@ -59,18 +59,19 @@ public:
         return met;
     }
 
-    /// A bit for each sphere in the ray's way up to `t_end`, which is in it or not (RayEnd).
-    std::uint32_t blocked_by(const abi::SphereBlock<Real>& block, Real t_end, bool closed) const
+    /// A bit for each sphere that occludes the ray up to `t_end`.
+    std::uint32_t blocked_by(const abi::SphereBlock<Real>& block, Real t_end,
+                             RayInterval interval) const
     {
-        const RayEnd<Real> end{vreal<Real>(t_end), closed};
+        const RayEnd<Real> end{vreal<Real>(t_end), interval};
         std::uint32_t blocking = 0;
         for (int first = 0; first < abi::node_width; first += lanes<Real>)
             blocking |= bits(end.blocked_by(quadratics(block, first), rays_)) << first;
         return blocking;
     }
 
-    /// A bit for each sphere that the ray, which has this number in the bundle, does not miss for
-    /// sure: beside it, behind its origin or beyond its end.
+    /// A bit for each sphere that the ray, number `ray` of the bundle, does not certainly miss: by
+    /// passing beside it, or because the sphere is behind the origin or beyond the ray's end.
     std::uint32_t near(const abi::SphereBlock<Real>& block, const RayBundle<Real>& bundle,
                        int ray) const
     {
@@ -87,8 +88,8 @@ public:
     }
 
 private:
-    /// Spheres that the ray starts outside of and leaves, or that are wholly beyond its end:
-    /// b = w·d is known to `slack`.
+    /// Spheres that the ray starts outside of and moves away from, or that are completely beyond
+    /// its end. b = w·d is known up to `slack`.
     std::uint32_t before_or_behind(const Vec3v<Real>& w, const vreal<Real>& outer,
                                    const RayBundle<Real>& bundle, int ray) const
     {

@@ -2,12 +2,13 @@
 
 #include <immintrin.h>
 
-// A block holds half as many spheres as a packet has lanes: the ray in registers of eight, which
-// Zen 4 works on twice as fast. The same operations as in BlockRay and quadratic.hpp.
+// BlockRay for floats on AVX-512, where a block holds half as many spheres as a packet has lanes:
+// it uses registers of eight floats, which Zen 4 processes twice as fast. The operations are those
+// of BlockRay and quadratic.hpp.
 namespace packtrace::PACKTRACE_ISA {
 namespace {
 
-/// Eight values, and eight zeros.
+/// Loads eight values and eight zeros.
 inline vreal<float> load_of_block(const float (&block)[abi::node_width], int)
 {
     return _mm512_zextps256_ps512(_mm256_load_ps(block));
@@ -30,7 +31,7 @@ public:
     std::uint32_t first_roots(const abi::SphereBlock<float>& block, float t_max,
                               float (&t)[abi::node_width]) const
     {
-        const Eights q = quadratics(block);
+        const Quadratics8 q = quadratics(block);
         const std::uint32_t active = may_hit(q);
         if (active == 0)
             return 0;
@@ -49,11 +50,12 @@ public:
                _mm256_cmp_ps_mask(root, _mm256_set1_ps(t_max), _CMP_LE_OQ);
     }
 
-    std::uint32_t blocked_by(const abi::SphereBlock<float>& block, float t_end, bool closed) const
+    std::uint32_t blocked_by(const abi::SphereBlock<float>& block, float t_end,
+                             RayInterval interval) const
     {
-        const Eights q = quadratics(block);
+        const Quadratics8 q = quadratics(block);
         const __m256 end = _mm256_set1_ps(t_end);
-        return closed ? root_between(q, end) : any_root(q, end);
+        return interval == RayInterval::closed ? root_between(q, end) : any_root(q, end);
     }
 
     std::uint32_t near(const abi::SphereBlock<float>& block, const RayBundle<float>& bundle,
@@ -63,7 +65,7 @@ public:
         for (int axis = 0; axis < 3; ++axis)
             o[axis] = _mm256_sub_ps(org_[axis], _mm256_load_ps(block.center[axis]));
         const __m256 moment[3] = {cross(o, 1, 2), cross(o, 2, 0), cross(o, 0, 1)};
-        // leaf_outer() in eight lanes.
+        // leaf_outer() for eight lanes.
         const __m256 shift = _mm256_set1_ps(bundle.moment_error * (1.0f + roundoffs(12.0f)));
         const __m256 outer = _mm256_fmadd_ps(_mm256_load_ps(block.radius),
                                              _mm256_set1_ps(1.0f + roundoffs(12.0f)), shift);
@@ -95,7 +97,7 @@ private:
     {
         return _mm256_mul_ps(x, _mm256_andnot_ps(_mm256_set1_ps(-0.0f), x));
     }
-    struct Eights {
+    struct Quadratics8 {
         __m256 b, c, discriminant;
     };
 
@@ -108,7 +110,7 @@ private:
         return _mm256_xor_ps(x, _mm256_set1_ps(-0.0f));
     }
 
-    Eights quadratics(const abi::SphereBlock<float>& block) const
+    Quadratics8 quadratics(const abi::SphereBlock<float>& block) const
     {
         __m256 o[3];
         for (int axis = 0; axis < 3; ++axis)
@@ -118,30 +120,30 @@ private:
         return {dot(o, dir_), _mm256_sub_ps(dot(o, o), radius2),
                 _mm256_fmsub_ps(dir2_, radius2, dot(moment, moment))};
     }
-    /// A component of o × d.
+    /// One component of o × d.
     __m256 cross(const __m256 (&o)[3], int i, int j) const
     {
         return _mm256_fmsub_ps(o[i], dir_[j], _mm256_mul_ps(o[j], dir_[i]));
     }
 
-    static std::uint32_t may_hit(const Eights& q)
+    static std::uint32_t may_hit(const Quadratics8& q)
     {
         const __m256 zero = _mm256_setzero_ps();
         return _mm256_cmp_ps_mask(q.discriminant, zero, _CMP_GE_OQ) &
                (_mm256_cmp_ps_mask(q.b, zero, _CMP_LT_OQ) |
                 _mm256_cmp_ps_mask(q.c, zero, _CMP_LT_OQ));
     }
-    static __m256 signed_root_of(const Eights& q)
+    static __m256 signed_root_of(const Quadratics8& q)
     {
         const __m256 sign = _mm256_and_ps(q.b, _mm256_set1_ps(-0.0f));
         return _mm256_or_ps(_mm256_sqrt_ps(q.discriminant), sign);
     }
-    static __m256 minus_q_of(const Eights& q)
+    static __m256 minus_q_of(const Quadratics8& q)
     {
         return _mm256_add_ps(q.b, signed_root_of(q));
     }
 
-    __m256 lesser_root(const Eights& q, __m256 minus_q, std::uint32_t crosses) const
+    __m256 lesser_root(const Quadratics8& q, __m256 minus_q, std::uint32_t crosses) const
     {
         const __m256 root = _mm256_div_ps(negated(q.c), minus_q);
         const __m256 square = _mm256_mul_ps(minus_q, minus_q);
@@ -160,7 +162,7 @@ private:
                                   _mm256_sub_ps(signed_root_of(q), q.b), dir2_);
     }
 
-    std::uint32_t any_root(const Eights& q, __m256 t_end) const
+    std::uint32_t any_root(const Quadratics8& q, __m256 t_end) const
     {
         const std::uint32_t active = may_hit(q);
         if (active == 0)
@@ -174,7 +176,7 @@ private:
                          between(_mm256_div_ps(negated(minus_q), dir2_)));
     }
 
-    std::uint32_t root_between(const Eights& q, __m256 t_end) const
+    std::uint32_t root_between(const Quadratics8& q, __m256 t_end) const
     {
         const __m256 zero = _mm256_setzero_ps();
         const auto below = [&](__m256 x) -> std::uint32_t {
@@ -196,8 +198,8 @@ private:
         return (below(near) & not_below(far)) | leaves | dips;
     }
 
-    /// The same operations as ends_inside() of quadratic.hpp.
-    std::uint32_t ends_inside(const Eights& q, __m256 t_end, __m256 slope) const
+    /// The operations are those of ends_inside() in quadratic.hpp.
+    std::uint32_t ends_inside(const Quadratics8& q, __m256 t_end, __m256 slope) const
     {
         const auto size_of = [](__m256 x) { return _mm256_andnot_ps(_mm256_set1_ps(-0.0f), x); };
         const __m256 slope2 = _mm256_mul_ps(slope, slope);

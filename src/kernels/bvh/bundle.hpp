@@ -5,42 +5,43 @@
 #include "kernels/precision/own_surface.hpp"
 #include "kernels/stats/observe.hpp"
 
-// Rays that go through the hierarchy together: a tile's, or as many of a stream.
+// Rays that traverse the BVH together: those of a tile, or as many of a stream.
 namespace packtrace::PACKTRACE_ISA {
 namespace {
 
 inline constexpr int bundle_rays = abi::tile_pixels;
-/// A bundle's rays are looked at in cells: along a tile's curve these are 4 x 4 pixels.
+/// A bundle is divided into cells of 16 rays. Along a tile's Z-order curve a cell has 4 x 4 pixels.
 inline constexpr int cell_rays = 16;
 inline constexpr int bundle_cells = bundle_rays / cell_rays;
 
 struct LeafFilters;
 
-/// Rays that are not active have a `t` of minus infinity, and are like their neighbours.
+/// Rays that are not active have a `t` of minus infinity; their other values are those of a
+/// neighbour.
 template <class Real>
 struct alignas(64) RayBundle {
     Real org[3][bundle_rays];
     Real dir[3][bundle_rays];
     Real t_min[bundle_rays];
-    Real t[bundle_rays];  ///< where the ray ends: at its closest hit so far, or the light
+    Real t[bundle_rays];  ///< end of the ray: its closest hit so far, or the light
     lane_int<Real> surface[bundle_rays];
-    lane_int<Real> own[bundle_rays];     ///< the surface the ray starts on; -1: none
-    std::uint16_t active[bundle_cells];  ///< a bit a ray
-    // With Features::exact, as HitPacket has them; and rays that something may be in the way of.
+    lane_int<Real> own[bundle_rays];     ///< surface that the ray starts on; -1: none
+    std::uint16_t active[bundle_cells];  ///< one bit per ray
+    // With Features::exact only: as in HitPacket, and the rays that may be occluded.
     Real t_low[bundle_rays];
     Real other[bundle_rays];
     std::uint16_t unsure[bundle_cells];
-    // With Features::exact, for the objects of the hierarchy.
+    // With Features::exact only: error bounds of objects in the BVH.
     Real inverse[bundle_rays];  ///< 1 / |d|
-    bool one_origin;            ///< the active rays start at `origin`, but for NaN
+    bool one_origin;            ///< all active rays start at `origin`, except for NaN
     float origin[3];
-    float length;          ///< the largest distance of an origin from any centre of a sphere there
-    float center_error;    ///< of the spheres there
-    float moment_error;    ///< likewise, by sphere_filter.hpp
-    LeafFilters* filters;  ///< kept from bundle to bundle of one call (leaf_filters.hpp)
+    float length;  ///< largest distance between any ray origin and any sphere's centre in the BVH
+    float center_error;    ///< upper bound of the rounding error of any sphere's centre in the BVH
+    float moment_error;    ///< moment_error() for all these spheres (sphere_filter.hpp)
+    LeafFilters* filters;  ///< kept for the next bundles of the same call (leaf_filters.hpp)
 };
 
-/// Lanes of the packet at `first` become unsure.
+/// Makes lanes of the packet at `first` unsure.
 template <class Real>
 inline void doubt_lanes(RayBundle<Real>& bundle, int first, std::uint32_t unsure)
 {
@@ -48,7 +49,8 @@ inline void doubt_lanes(RayBundle<Real>& bundle, int first, std::uint32_t unsure
     bundle.unsure[first / cell_rays] |= static_cast<std::uint16_t>(unsure << first % cell_rays);
 }
 
-/// A single ray becomes unsure, for what was noted of `lanes_of` of it in every lane.
+/// Makes a single ray unsure, for a cause that was recorded for `lanes_of`; every lane holds this
+/// ray.
 template <class Real>
 inline void doubt_ray(RayBundle<Real>& bundle, int ray, std::uint32_t lanes_of)
 {
@@ -116,14 +118,15 @@ inline OwnSurface<vint<Real>> own_of(const RayBundle<Real>& bundle, int first)
     return {load(bundle.own + first)};
 }
 
-/// The lanes of the packet at `first` that are wanted.
+/// The active lanes of the packet at `first`.
 template <class Real>
 inline std::uint32_t active_lanes(const RayBundle<Real>& bundle, int first)
 {
     return bundle.active[first / cell_rays] >> first % cell_rays & all_lanes<Real>;
 }
 
-/// The same for rays against all objects of a list; any of them is `active`.
+/// The surfaces that a packet starts on, for tests against all objects of a list; any lane is
+/// `active`.
 template <class Real>
 inline OwnSurface<vint<Real>> common_own_of(const RayBundle<Real>& bundle, int first,
                                             std::uint32_t active)
@@ -132,7 +135,7 @@ inline OwnSurface<vint<Real>> common_own_of(const RayBundle<Real>& bundle, int f
     return own_with_common<Real>(own, bundle.own[first + __builtin_ctz(active)], active);
 }
 
-/// A ray of a bundle by itself, in double.
+/// One ray of a bundle, in double.
 inline WideRay wide_ray(const RayBundle<float>& bundle, int ray)
 {
     const float(&org)[3][bundle_rays] = bundle.org;
@@ -159,8 +162,8 @@ inline void for_each_active(const RayBundle<Real>& bundle, std::uint32_t cells, 
     }
 }
 
-/// The rays of the packet at `first` have hit `hit` so far, their search passes over `own`, and
-/// those not in `active` end before they start.
+/// Sets the packet at `first` to its hits so far and to the surfaces that it starts on. Rays not in
+/// `active` end before they start.
 template <abi::Features F, class Real>
 inline void start_rays(RayBundle<Real>& bundle, int first, const HitPacket<Real>& hit,
                        const vint<Real>& own, std::uint32_t active)
@@ -177,7 +180,8 @@ inline void start_rays(RayBundle<Real>& bundle, int first, const HitPacket<Real>
         bundle.unsure[first / cell_rays] = 0;
 }
 
-/// A packet of rays in whose way things are looked for up to `t_end`; else as start_rays().
+/// Sets the packet at `first` to rays whose occluders are searched for up to `t_end`; otherwise as
+/// start_rays().
 template <abi::Features F, class Real>
 inline void start_segments(RayBundle<Real>& bundle, int first, const RayPacket<Real>& rays,
                            const vreal<Real>& t_end, const vint<Real>& own, std::uint32_t active)
@@ -186,8 +190,8 @@ inline void start_segments(RayBundle<Real>& bundle, int first, const RayPacket<R
     start_rays<F>(bundle, first, no_hit<Real>(t_end), own, active);
 }
 
-/// Makes the rays from `count` to the end of its cell like the one before it, and marks them and
-/// all later ones as not active. `count` > 0.
+/// Copies ray `count` - 1 to the rays from `count` to the end of its cell, and marks these and all
+/// later rays as not active. `count` > 0.
 template <class Real>
 inline void end_bundle(RayBundle<Real>& bundle, int count)
 {

@@ -4,45 +4,37 @@
 #include "kernels/bvh/coherent_cells.hpp"
 #include "kernels/bvh/walk_lists.hpp"
 
-// Closest hits of a bundle of rays among the objects of the hierarchy.
+// Closest hits of a bundle of rays with the objects of the BVH.
 namespace packtrace::PACKTRACE_ISA {
 namespace {
 
-/// Tests one leaf after another against the cells that may meet it.
+/// Tests leaves against the cells that may hit them.
 template <abi::Features F, class Real>
-class ClosestInTree {
+class ClosestInBvh {
 public:
-    ClosestInTree(const abi::BvhView<Real>& tree, RayBundle<Real>& bundle, CellBounds& bounds,
-                  SlabRays& slabs)
-        : tree_(tree), bundle_(bundle), bounds_(bounds), slabs_(slabs)
+    ClosestInBvh(const abi::BvhView<Real>& bvh, RayBundle<Real>& bundle, CellBounds& bounds,
+                 SlabRays& slabs)
+        : bvh_(bvh), bundle_(bundle), bounds_(bounds), slabs_(slabs)
     {
     }
 
-    /// A leaf that several cells may meet.
+    /// Tests a leaf that several cells may hit.
     void operator()(std::uint32_t child, std::uint32_t cells) const
     {
         if constexpr (F.quadrics)
             if (abi::is_run(child))
                 return run(child, cells);
-        abi::SphereBlock<Real> room;
-        spheres(sphere_leaf(tree_, child, room), cells);
+        abi::SphereBlock<Real> gathered;
+        spheres(sphere_leaf(bvh_, child, gathered), cells);
     }
 
-    /// Whatever is below a child that few rays of one cell may meet.
+    /// Traverses what is below a child, for few rays of one cell.
     void few_rays(std::uint32_t child, int cell, std::uint32_t rays) const
     {
         for (; rays != 0; rays &= rays - 1)
-            closest_of_ray<F>(tree_, slabs_, bundle_, cell * cell_rays + __builtin_ctz(rays),
-                              child);
+            closest_of_ray<F>(bvh_, slabs_, bundle_, cell * cell_rays + __builtin_ctz(rays), child);
         bounds_.t_max[cell] = furthest(bundle_, cell);
         join_t_max(bounds_);
-    }
-
-    /// The rays of a cell that may meet a box.
-    std::uint32_t rays_of(int cell, const float (&low)[3], const float (&high)[3]) const
-    {
-        fill_cell(slabs_, bundle_, cell, tree_.extent, tree_.slack);
-        return meet_rays(slabs_, bundle_, cell, low, high);
     }
 
 private:
@@ -68,13 +60,13 @@ private:
             join_t_max(bounds_);
     }
 
-    /// `keep(first)` tells whether the packet at `first` may have a closer hit now.
+    /// `keep(first)` returns whether the packet at `first` may now have a closer hit.
     template <class Keep>
     bool sphere(int cell, const Keep& keep) const
     {
         bool any_closer = false;
         for (int first = cell * cell_rays; first < (cell + 1) * cell_rays; first += lanes<Real>) {
-            tell_live(active_lanes(bundle_, first));
+            record_live(active_lanes(bundle_, first));
             count_tests(abi::Primitive::sphere, 1);
             any_closer |= keep(first);
         }
@@ -110,10 +102,10 @@ private:
         return true;
     }
 
-    // Not inlined into each way to walk: runs are few, and their tests are long.
+    // Not inlined into each traversal: runs are rare, and their tests are long.
     [[gnu::noinline]] void run(std::uint32_t child, std::uint32_t cells) const
     {
-        const abi::Primitive kind = primitive_of_run(tree_, abi::first_of_run(child));
+        const abi::Primitive kind = primitive_of_run(bvh_, abi::first_of_run(child));
         const StepScope step(step_of(kind));
         for (int i = 0; i < abi::run_count(child); ++i)
             for (std::uint32_t left = cells; left != 0; left &= left - 1)
@@ -124,59 +116,60 @@ private:
     void keep_object(abi::Primitive kind, int number, int cell) const
     {
         for (int first = cell * cell_rays; first < (cell + 1) * cell_rays; first += lanes<Real>) {
-            tell_live(active_lanes(bundle_, first));
+            record_live(active_lanes(bundle_, first));
             count_tests(kind, 1);
             HitPacket<Real> hit = load_hits(bundle_, first);
-            keep_of_run<F>(hit, tree_, number, bundle_, load_rays(bundle_, first),
+            keep_of_run<F>(hit, bvh_, number, bundle_, load_rays(bundle_, first),
                            own_of(bundle_, first));
             store_hits<F>(bundle_, first, hit);
         }
         bounds_.t_max[cell] = furthest(bundle_, cell);
     }
 
-    const abi::BvhView<Real>& tree_;
+    const abi::BvhView<Real>& bvh_;
     RayBundle<Real>& bundle_;
     CellBounds& bounds_;
     SlabRays& slabs_;
 };
 
-/// The same for the coherent cells of a bundle.
+/// Closest hits of the coherent cells of a bundle.
 template <abi::Features F, class Real>
-inline void closest_of_cells(const abi::BvhView<Real>& tree, RayBundle<Real>& bundle,
+inline void closest_of_cells(const abi::BvhView<Real>& bvh, RayBundle<Real>& bundle,
                              CellBounds& bounds)
 {
     SlabRays slabs;
     start_coherent(bounds, bundle);
-    walk_cells(tree, bounds, bounds.coherent, ClosestInTree<F, Real>(tree, bundle, bounds, slabs));
+    walk_cells(bvh, bounds, bounds.coherent, CellRays<Real>{bvh, slabs, bundle},
+               ClosestInBvh<F, Real>(bvh, bundle, bounds, slabs));
 }
 
-/// Tests listed rays for their closest hits.
+/// Searches the closest hits of listed rays.
 template <abi::Features F, class Real>
 struct ClosestOfListed {
-    const abi::BvhView<Real>& tree;
+    const abi::BvhView<Real>& bvh;
     const SlabRays& slabs;
     RayBundle<Real>& bundle;
 
     void leaf(std::uint32_t child, int ray) const
     {
-        closest_of_leaf<F>(tree, bundle, ray, BlockRay<Real>(bundle, ray), child);
+        closest_of_leaf<F>(bvh, bundle, ray, BlockRay<Real>(bundle, ray), child);
     }
     void lone(std::uint32_t child, int ray) const
     {
-        closest_of_ray<F>(tree, slabs, bundle, ray, child);
+        closest_of_ray<F>(bvh, slabs, bundle, ray, child);
     }
 };
 
-/// The active rays of cells that share no way.
+/// Closest hits of the active rays of cells that are not coherent.
 template <abi::Features F, class Real>
-[[gnu::noinline]] void closest_of_others(const abi::BvhView<Real>& tree, RayBundle<Real>& bundle,
+[[gnu::noinline]] void closest_of_others(const abi::BvhView<Real>& bvh, RayBundle<Real>& bundle,
                                          std::uint32_t cells)
 {
     SlabRays slabs;
-    walk_in_lists(tree, slabs, bundle, cells, ClosestOfListed<F, Real>{tree, slabs, bundle});
+    walk_in_lists(bvh, slabs, bundle, cells, ClosestOfListed<F, Real>{bvh, slabs, bundle});
 }
 
-/// Nothing is certain of what some rays of a bundle hit.
+/// Makes the hits of some rays of a bundle unsure.
 struct DoubtHits {
     RayBundle<float>& bundle;
 
@@ -188,26 +181,24 @@ struct DoubtHits {
     }
 };
 
-/// Brings the t and surface of a bundle's active rays down to their first hit in the hierarchy,
-/// where that comes before.
+/// Updates the t and surface of a bundle's active rays with closer hits in the BVH.
 template <abi::Features F, class Real>
-[[gnu::noinline]] void closest_in_tree(const abi::GeometryView<Real>& scene,
-                                       RayBundle<Real>& bundle)
+[[gnu::noinline]] void closest_in_bvh(const abi::GeometryView<Real>& scene, RayBundle<Real>& bundle)
 {
     const StepScope step(abi::Step::boxes);
-    const abi::BvhView<Real>& tree = scene.tree;
+    const abi::BvhView<Real>& bvh = scene.tree;
     if constexpr (F.exact)
         bound_origins(bundle, scene, DoubtHits{bundle});
     CellBounds bounds;
-    bound_cells(bounds, bundle, tree, tree.spread, F.exact && bundle.one_origin);
+    bound_cells(bounds, bundle, bvh, bvh.spread, F.exact && bundle.one_origin);
     if (bounds.coherent != 0)
-        closest_of_cells<F>(tree, bundle, bounds);
+        closest_of_cells<F>(bvh, bundle, bounds);
     const std::uint32_t others = active_cells(bundle) & ~bounds.coherent;
     if (others != 0)
-        closest_of_others<F>(tree, bundle, others);
+        closest_of_others<F>(bvh, bundle, others);
 }
 
-/// The closest hits of a bundle among the objects of lists.
+/// The closest hits of a bundle with the objects of lists.
 template <abi::Features F, class Objects, class Real>
 [[gnu::noinline]] void closest_in_lists(const Objects& lists, RayBundle<Real>& bundle)
 {
@@ -215,15 +206,15 @@ template <abi::Features F, class Objects, class Real>
         const std::uint32_t active = active_lanes(bundle, first);
         if (active == 0)
             continue;
-        tell_live(active);
+        record_live(active);
         HitPacket<Real> hit = load_hits(bundle, first);
         closest_hit<F>(hit, lists, load_rays(bundle, first), common_own_of(bundle, first, active));
         store_hits<F>(bundle, first, hit);
     }
 }
 
-/// The same among all objects of a scene, lists first: what stands in them is large. Without a
-/// hierarchy single precision has no bundles.
+/// The closest hits with all objects of a scene. Lists come first, as the objects in them are
+/// large. Without a BVH, bundles are used in double precision only.
 template <abi::Features F, class Objects, class Real>
 inline void closest_of_bundle(const abi::GeometryView<Real>& scene, const Objects& lists,
                               RayBundle<Real>& bundle)
@@ -232,7 +223,7 @@ inline void closest_of_bundle(const abi::GeometryView<Real>& scene, const Object
     if (has_objects<features>(lists))
         closest_in_lists<features>(lists, bundle);
     if (!scene.tree.empty())
-        closest_in_tree<features>(scene, bundle);
+        closest_in_bvh<features>(scene, bundle);
 }
 
 }  // namespace

@@ -4,26 +4,26 @@
 #include "kernels/bvh/walk_lists.hpp"
 #include "kernels/lists/callback.hpp"
 
-// Every hit of a bundle of rays with the objects of the hierarchy, also behind others.
+// All hits of a bundle of rays with the objects of the BVH, not only the closest ones.
 namespace packtrace::PACKTRACE_ISA {
 namespace {
 
-/// Takes rays of the packet at `first`, a bit each, their t, and the surface that they cross.
+/// Receives hits: rays of the packet at `first`, as bits, their t, and the surface that they hit.
 template <class Real>
 using CrossingVisitor =
     Callback<void(int first, std::uint32_t crosses, const vreal<Real>& t, std::int32_t surface)>;
 
-/// Takes every crossing of leaves, with the packets of cells or with single rays.
+/// Reports every hit with a leaf, for the packets of cells or for single rays.
 template <abi::Features F, class Real>
-class CrossingsInTree {
+class CrossingsInBvh {
 public:
-    CrossingsInTree(const abi::BvhView<Real>& tree, const RayBundle<Real>& bundle,
-                    const CellBounds& bounds, SlabRays& slabs, const CrossingVisitor<Real>& visit)
-        : tree_(tree), bundle_(bundle), bounds_(bounds), slabs_(slabs), visit_(visit)
+    CrossingsInBvh(const abi::BvhView<Real>& bvh, const RayBundle<Real>& bundle,
+                   const CellBounds& bounds, SlabRays& slabs, const CrossingVisitor<Real>& visit)
+        : bvh_(bvh), bundle_(bundle), bounds_(bounds), slabs_(slabs), visit_(visit)
     {
     }
 
-    /// A leaf that cells may meet.
+    /// Tests a leaf that cells may hit.
     void operator()(std::uint32_t child, std::uint32_t cells) const
     {
         if (F.quadrics && abi::is_run(child)) {
@@ -33,8 +33,8 @@ public:
                 });
             return;
         }
-        abi::SphereBlock<Real> room;
-        const SphereLeaf<Real> leaf = sphere_leaf(tree_, child, room);
+        abi::SphereBlock<Real> gathered;
+        const SphereLeaf<Real> leaf = sphere_leaf(bvh_, child, gathered);
         visit_spheres(bounds_, leaf.block, cells, [&](int slot, int cell) {
             packets_of(cell, [&](int first, const RayPacket<Real>& rays) {
                 sphere(leaf, slot, first, rays, all_lanes<Real>);
@@ -42,31 +42,24 @@ public:
         });
     }
 
-    /// Whatever is below a child that few rays of one cell may meet.
+    /// Traverses what is below a child, for few rays of one cell.
     void few_rays(std::uint32_t child, int cell, std::uint32_t rays) const
     {
         for (; rays != 0; rays &= rays - 1)
             lone(child, cell * cell_rays + __builtin_ctz(rays));
     }
 
-    /// The rays of a cell that may meet a box.
-    std::uint32_t rays_of(int cell, const float (&low)[3], const float (&high)[3]) const
-    {
-        fill_cell(slabs_, bundle_, cell, tree_.extent, tree_.slack);
-        return meet_rays(slabs_, bundle_, cell, low, high);
-    }
-
-    /// All below a child for one ray of a filled cell.
+    /// Traverses what is below a child, for one ray of a filled cell.
     void lone(std::uint32_t child, int ray) const
     {
         SlabRay slab = slab_ray(slabs_, bundle_, ray);
-        walk_ray(tree_, child, slab, [&](std::uint32_t below) {
+        walk_ray(bvh_, child, slab, [&](std::uint32_t below) {
             leaf(below, ray);
             return true;
         });
     }
 
-    /// A leaf for one ray, by the operations of its packet.
+    /// Tests a leaf against one ray, by the operations of its packet.
     void leaf(std::uint32_t child, int ray) const
     {
         const int first = ray / lanes<Real> * lanes<Real>;
@@ -74,8 +67,8 @@ public:
         const RayPacket<Real> rays = load_rays(bundle_, first);
         if (F.quadrics && abi::is_run(child))
             return run(child, first, rays, lane);
-        abi::SphereBlock<Real> room;
-        const SphereLeaf<Real> spheres = sphere_leaf(tree_, child, room);
+        abi::SphereBlock<Real> gathered;
+        const SphereLeaf<Real> spheres = sphere_leaf(bvh_, child, gathered);
         Real unused[abi::node_width];
         std::uint32_t met = BlockRay<Real>(bundle_, ray)
                                 .first_roots(spheres.block, static_cast<Real>(no_end), unused);
@@ -101,7 +94,7 @@ private:
                     });
     }
 
-    // Not inlined into each way to walk: runs are few, and their tests are long.
+    // Not inlined into each traversal: runs are rare, and their tests are long.
     [[gnu::noinline]] void run(std::uint32_t child, int first, const RayPacket<Real>& rays,
                                std::uint32_t wanted) const
     {
@@ -111,34 +104,35 @@ private:
             });
         };
         for (int i = 0; i < abi::run_count(child); ++i)
-            with_object_of_run(tree_, abi::first_of_run(child) + i, report);
+            with_object_of_run(bvh_, abi::first_of_run(child) + i, report);
     }
 
-    const abi::BvhView<Real>& tree_;
+    const abi::BvhView<Real>& bvh_;
     const RayBundle<Real>& bundle_;
     const CellBounds& bounds_;
     SlabRays& slabs_;
     const CrossingVisitor<Real>& visit_;
 };
 
-/// Calls `visit` for every crossing of the objects of the hierarchy with the packets of a bundle;
-/// only those with a t before the ray's are one.
+/// Calls `visit` for every hit of the packets of a bundle with objects of the BVH. Only those with
+/// a t before the ray's end are hits.
 template <abi::Features F, class Real>
-[[gnu::noinline]] void visit_crossings_in_tree(const abi::BvhView<Real>& tree,
-                                               const RayBundle<Real>& bundle,
-                                               const CrossingVisitor<Real>& visit)
+[[gnu::noinline]] void visit_crossings_in_bvh(const abi::BvhView<Real>& bvh,
+                                              const RayBundle<Real>& bundle,
+                                              const CrossingVisitor<Real>& visit)
 {
     SlabRays slabs;
     CellBounds bounds;
-    bound_cells(bounds, bundle, tree, tree.spread, false);
-    const CrossingsInTree<F, Real> crossings(tree, bundle, bounds, slabs, visit);
+    constexpr bool one_origin = false;
+    bound_cells(bounds, bundle, bvh, bvh.spread, one_origin);
+    const CrossingsInBvh<F, Real> crossings(bvh, bundle, bounds, slabs, visit);
     if (bounds.coherent != 0) {
         start_coherent(bounds, bundle);
-        walk_cells(tree, bounds, bounds.coherent, crossings);
+        walk_cells(bvh, bounds, bounds.coherent, CellRays<Real>{bvh, slabs, bundle}, crossings);
     }
     const std::uint32_t others = active_cells(bundle) & ~bounds.coherent;
     if (others != 0)
-        walk_in_lists(tree, slabs, bundle, others, crossings);
+        walk_in_lists(bvh, slabs, bundle, others, crossings);
 }
 
 }  // namespace

@@ -5,26 +5,26 @@
 #include "kernels/bvh/occluded_ray.hpp"
 #include "kernels/bvh/walk_lists.hpp"
 
-// What stands in the way of a bundle of rays among the objects of the hierarchy.
+// Occlusion of a bundle of rays by the objects of the BVH.
 //
-// Rays that nothing further matters to (Occluder) are taken out of the bundle's active ones. The
-// rays end at the bundle's `t`, and their reach is `closed` or not (RayEnd). A ray's own surface
-// does not block it. With Features::exact only what blocks for sure counts, and rays that something
-// else may block are marked as unsure in the bundle.
+// Rays that need no further occluders (Occluder) are removed from the bundle's active rays. Rays
+// end at the bundle's `t`; their `interval` is open or closed (RayEnd). The surface that a ray
+// starts on does not occlude it. With Features::exact only certain occluders count, and rays that
+// may have others are marked as unsure in the bundle.
 namespace packtrace::PACKTRACE_ISA {
 namespace {
 
-/// The cells of a bundle.
+/// Tests leaves against the cells that may hit them.
 template <abi::Features F, class Real>
-class OccludersInTree {
+class OccludersInBvh {
 public:
-    OccludersInTree(const abi::BvhView<Real>& tree, RayBundle<Real>& bundle, CellBounds& bounds,
-                    SlabRays& slabs, bool closed, const Occluder& occluder)
-        : tree_(tree),
+    OccludersInBvh(const abi::BvhView<Real>& bvh, RayBundle<Real>& bundle, CellBounds& bounds,
+                   SlabRays& slabs, RayInterval interval, const Occluder& occluder)
+        : bvh_(bvh),
           bundle_(bundle),
           bounds_(bounds),
           slabs_(slabs),
-          closed_(closed),
+          interval_(interval),
           occluder_(occluder)
     {
     }
@@ -34,25 +34,19 @@ public:
         if constexpr (F.quadrics)
             if (abi::is_run(child))
                 return run(child, cells);
-        abi::SphereBlock<Real> room;
-        spheres(sphere_leaf(tree_, child, room), cells);
+        abi::SphereBlock<Real> gathered;
+        spheres(sphere_leaf(bvh_, child, gathered), cells);
     }
 
     void few_rays(std::uint32_t child, int cell, std::uint32_t rays) const
     {
         for (; rays != 0; rays &= rays - 1)
-            occluders_of_ray<F>(tree_, slabs_, bundle_, cell * cell_rays + __builtin_ctz(rays),
-                                child, closed_, occluder_);
+            occluders_of_ray<F>(bvh_, slabs_, bundle_, cell * cell_rays + __builtin_ctz(rays),
+                                child, interval_, occluder_);
         if (bundle_.active[cell] == 0) {
             bounds_.t_max[cell] = -no_end;
             join_t_max(bounds_);
         }
-    }
-
-    std::uint32_t rays_of(int cell, const float (&low)[3], const float (&high)[3]) const
-    {
-        fill_cell(slabs_, bundle_, cell, tree_.extent, tree_.slack);
-        return meet_rays(slabs_, bundle_, cell, low, high);
     }
 
 private:
@@ -98,13 +92,13 @@ private:
     Occlusion rounded_sphere_occludes(const SphereLeaf<Real>& leaf, int slot, int first) const
     {
         const RayPacket<Real> rays = load_rays(bundle_, first);
-        const RayEnd<Real> end{load(bundle_.t + first), closed_};
+        const RayEnd<Real> end{load(bundle_.t + first), interval_};
         return {but_own<Real>(bits(end.blocked_by(quadratic_of(leaf.block, slot, rays), rays)),
                               own_of(bundle_, first), {leaf.surface_of(slot), 1}),
                 0};
     }
 
-    /// Asks double of the lanes of `unsure`, one by one.
+    /// Decides the lanes of `unsure` in double, one by one.
     Occlusion decided_alone(std::uint32_t blocked, std::uint32_t unsure, std::int32_t surface,
                             int first) const
     {
@@ -113,7 +107,7 @@ private:
         for (; left != 0; left &= left - 1) {
             const std::uint32_t lane = left & -left;
             const int ray = first + __builtin_ctz(left);
-            const InDouble blocks = is_in_the_way(sphere_of(*tree_.shapes, surface),
+            const InDouble blocks = is_in_the_way(sphere_of(*bvh_.shapes, surface),
                                                   wide_ray(bundle_, ray), bundle_.t[ray]);
             result.blocked |= blocks == InDouble::yes ? lane : 0;
             result.unsure |= blocks == InDouble::undecided ? lane : 0;
@@ -121,25 +115,25 @@ private:
         return result;
     }
 
-    // Not inlined into each way to walk: runs are few, and their tests are long.
+    // Not inlined into each traversal: runs are rare, and their tests are long.
     [[gnu::noinline]] void run(std::uint32_t child, std::uint32_t cells) const
     {
-        const abi::Primitive kind = primitive_of_run(tree_, abi::first_of_run(child));
+        const abi::Primitive kind = primitive_of_run(bvh_, abi::first_of_run(child));
         const StepScope step(step_of(kind));
         for (int i = 0; i < abi::run_count(child); ++i) {
             const int number = abi::first_of_run(child) + i;
-            const std::int32_t surface = tree_.run_surfaces[number];
+            const std::int32_t surface = bvh_.run_surfaces[number];
             for (std::uint32_t left = cells; left != 0; left &= left - 1)
                 object(kind, __builtin_ctz(left), surface, [&](int first) {
-                    return object_occludes<F>(tree_, number, bundle_, load_rays(bundle_, first),
+                    return object_occludes<F>(bvh_, number, bundle_, load_rays(bundle_, first),
                                               load(bundle_.t + first), own_of(bundle_, first),
-                                              closed_);
+                                              interval_);
                 });
         }
         join_t_max(bounds_);
     }
 
-    /// `occludes(first)` tells what one object does to the packet at `first`.
+    /// `occludes(first)` returns which lanes of the packet at `first` one object occludes.
     template <class Occludes>
     void object(abi::Primitive kind, int cell, std::int32_t surface, const Occludes& occludes) const
     {
@@ -147,7 +141,7 @@ private:
             const std::uint32_t active = active_lanes(bundle_, first);
             if (active == 0)
                 continue;
-            tell_live(active);
+            record_live(active);
             count_tests(kind, 1);
             const Occlusion occlusion = occludes(first);
             if ((occlusion.unsure & active) != 0)
@@ -160,38 +154,38 @@ private:
             bounds_.t_max[cell] = -no_end;
     }
 
-    const abi::BvhView<Real>& tree_;
+    const abi::BvhView<Real>& bvh_;
     RayBundle<Real>& bundle_;
     CellBounds& bounds_;
     SlabRays& slabs_;
-    bool closed_;
+    RayInterval interval_;
     const Occluder& occluder_;
 };
 
-/// Takes the coherent cells of a bundle as frustums.
+/// Finds the occluders of the coherent cells of a bundle, as frustums.
 template <abi::Features F, class Real>
-inline void occluders_of_cells(const abi::BvhView<Real>& tree, RayBundle<Real>& bundle,
-                               CellBounds& bounds, bool closed, const Occluder& occluder)
+inline void occluders_of_cells(const abi::BvhView<Real>& bvh, RayBundle<Real>& bundle,
+                               CellBounds& bounds, RayInterval interval, const Occluder& occluder)
 {
     SlabRays slabs;
     start_coherent(bounds, bundle);
-    walk_cells(tree, bounds, bounds.coherent,
-               OccludersInTree<F, Real>(tree, bundle, bounds, slabs, closed, occluder));
+    walk_cells(bvh, bounds, bounds.coherent, CellRays<Real>{bvh, slabs, bundle},
+               OccludersInBvh<F, Real>(bvh, bundle, bounds, slabs, interval, occluder));
 }
 
-/// Takes listed rays each for itself.
+/// Finds the occluders of listed rays, ray by ray.
 template <abi::Features F, class Real>
 struct OccludersOfListed {
-    const abi::BvhView<Real>& tree;
+    const abi::BvhView<Real>& bvh;
     const SlabRays& slabs;
     RayBundle<Real>& bundle;
-    bool closed;
+    RayInterval interval;
     const Occluder& occluder;
 
     void leaf(std::uint32_t child, int ray) const
     {
         if (is_active(bundle, ray) &&
-            !goes_behind_leaf<F>(tree, bundle, ray, BlockRay<Real>(bundle, ray), closed, child,
+            !goes_behind_leaf<F>(bvh, bundle, ray, BlockRay<Real>(bundle, ray), interval, child,
                                  occluder))
             end(ray);
     }
@@ -199,73 +193,73 @@ struct OccludersOfListed {
     {
         if (!is_active(bundle, ray))
             return;
-        occluders_of_ray<F>(tree, slabs, bundle, ray, child, closed, occluder);
+        occluders_of_ray<F>(bvh, slabs, bundle, ray, child, interval, occluder);
         if (!is_active(bundle, ray))
             end(ray);
     }
 
 private:
-    /// No box is met before a ray that has ended.
+    /// A ray that has ended hits no box.
     void end(int ray) const
     {
         bundle.t[ray] = static_cast<Real>(-__builtin_inf());
     }
 };
 
-/// The active rays of cells that share no way.
+/// Finds the occluders of the active rays of cells that are not coherent.
 template <abi::Features F, class Real>
-inline void occluders_of_others(const abi::BvhView<Real>& tree, RayBundle<Real>& bundle,
-                                std::uint32_t cells, bool closed, const Occluder& occluder)
+inline void occluders_of_others(const abi::BvhView<Real>& bvh, RayBundle<Real>& bundle,
+                                std::uint32_t cells, RayInterval interval, const Occluder& occluder)
 {
     SlabRays slabs;
-    walk_in_lists(tree, slabs, bundle, cells,
-                  OccludersOfListed<F, Real>{tree, slabs, bundle, closed, occluder});
+    walk_in_lists(bvh, slabs, bundle, cells,
+                  OccludersOfListed<F, Real>{bvh, slabs, bundle, interval, occluder});
 }
 
-/// Blocked rays leave a list but still widen a frustum, so that shadow rays go in lists at a
-/// smaller spread than closest hits; results/tree_designs.json.
+/// An occluded ray leaves a list but still widens a frustum, so shadow rays use lists at a smaller
+/// spread than closest hits; results/tree_designs.json.
 inline constexpr float blocked_spread = 0.7f;
-/// A light's buffer is quicker than lists: cells go there earlier still;
+/// A light buffer is faster than lists, so cells use it at an even smaller spread;
 /// results/light_buffers.json.
 inline constexpr float buffered_spread = 0.2f;
 
-/// Meets the active rays of a bundle with what blocks them in the hierarchy. Those that share no
-/// way go by the `buffer` of the light that all rays start at or run towards, if there is one. What
-/// it blocks ends, without a call of `occluder`.
+/// Finds the occluders of a bundle's active rays in the BVH. Rays that are not coherent use
+/// `buffer`, if given, the light buffer of the light that all rays start at or run towards. Rays
+/// that the buffer shows to be occluded end without a call of `occluder`.
 template <abi::Features F, class Real>
-[[gnu::noinline]] void visit_occluders_in_tree(const abi::BvhView<Real>& tree,
-                                               const abi::LightBuffer* buffer,
-                                               RayBundle<Real>& bundle, bool closed,
-                                               const Occluder& occluder)
+[[gnu::noinline]] void visit_occluders_in_bvh(const abi::BvhView<Real>& bvh,
+                                              const abi::LightBuffer* buffer,
+                                              RayBundle<Real>& bundle, RayInterval interval,
+                                              const Occluder& occluder)
 {
     const StepScope step(abi::Step::boxes);
     CellBounds bounds;
     const float share = F.exact && buffer != nullptr ? buffered_spread : blocked_spread;
-    bound_cells(bounds, bundle, tree, share * tree.spread, F.exact && bundle.one_origin);
+    bound_cells(bounds, bundle, bvh, share * bvh.spread, F.exact && bundle.one_origin);
     std::uint32_t others = active_cells(bundle) & ~bounds.coherent;
     if (bounds.coherent != 0)
-        occluders_of_cells<F>(tree, bundle, bounds, closed, occluder);
+        occluders_of_cells<F>(bvh, bundle, bounds, interval, occluder);
     if constexpr (F.exact)
         if (buffer != nullptr && others != 0) {
             const std::uint32_t beyond = cells_beyond(*buffer, bundle, others);
-            end_in_light_buffer(*buffer, *tree.shapes, bundle, others & ~beyond);
+            end_in_light_buffer(*buffer, *bvh.shapes, bundle, others & ~beyond);
             others = beyond;
         }
     if (others != 0)
-        occluders_of_others<F>(tree, bundle, others, closed, occluder);
+        occluders_of_others<F>(bvh, bundle, others, interval, occluder);
 }
 
-/// The same among the objects of lists; whether any ray is left.
+/// The same for the objects of lists. Returns whether any ray is still active.
 template <abi::Features F, class Objects, class Real>
 [[gnu::noinline]] bool visit_listed_occluders(const Objects& lists, RayBundle<Real>& bundle,
-                                              bool closed, const Occluder& occluder)
+                                              RayInterval interval, const Occluder& occluder)
 {
     std::uint32_t left = 0;
     for (int first = 0; first < bundle_rays; first += lanes<Real>) {
         const std::uint32_t wanted = active_lanes(bundle, first);
         if (wanted == 0)
             continue;
-        tell_live(wanted);
+        record_live(wanted);
         const auto take = [&](std::int32_t surface, std::uint32_t lanes_of) {
             const std::uint32_t blocked = lanes_of & active_lanes(bundle, first);
             if (blocked != 0)
@@ -279,7 +273,7 @@ template <abi::Features F, class Objects, class Real>
                 load(bundle.t + first), lists, rays, own, take);
             doubt_lanes(bundle, first, unsure & wanted);
         } else {
-            visit_occluders<F>(RayEnd<Real>{load(bundle.t + first), closed}, lists, rays, own,
+            visit_occluders<F>(RayEnd<Real>{load(bundle.t + first), interval}, lists, rays, own,
                                take);
         }
         left |= active_lanes(bundle, first);
@@ -287,8 +281,8 @@ template <abi::Features F, class Objects, class Real>
     return left != 0;
 }
 
-/// Rays of a bundle that no search in single precision may say anything of: of a magnitude that no
-/// bounds hold for. They are unsure, and set aside until that search is over.
+/// Rays of a bundle whose magnitudes the error bounds do not hold for. They are unsure, and are
+/// deactivated during the search in single precision.
 class RaysAside {
 public:
     explicit RaysAside(RayBundle<float>& bundle) : bundle_(bundle)
@@ -315,27 +309,28 @@ private:
     std::uint16_t aside_[bundle_cells] = {};
 };
 
-/// The same among all objects of a scene, lists first.
+/// Finds the occluders of a bundle among all objects of a scene, lists first.
 template <abi::Features F, class Objects, class Real>
 inline void visit_occluders_of_bundle(const abi::GeometryView<Real>& scene, const Objects& lists,
-                                      RayBundle<Real>& bundle, bool closed,
+                                      RayBundle<Real>& bundle, RayInterval interval,
                                       const Occluder& occluder,
                                       const abi::LightBuffer* buffer = nullptr)
 {
     constexpr abi::Features features = abi::tree_features(F);
     if (has_objects<features>(lists)
-            ? !visit_listed_occluders<features>(lists, bundle, closed, occluder)
+            ? !visit_listed_occluders<features>(lists, bundle, interval, occluder)
             : active_cells(bundle) == 0)
         return;
     if constexpr (F.exact) {
         RaysAside aside(bundle);
         if (scene.tree.empty())
-            return doubt_uncertifiable(bundle, lists.certifiable, aside);
+            return lists.certifiable ? doubt_uncertifiable(bundle, aside)
+                                     : doubt_active(bundle, aside);
         bound_origins(bundle, scene, aside);
         if (active_cells(bundle) != 0)
-            visit_occluders_in_tree<features>(scene.tree, buffer, bundle, closed, occluder);
+            visit_occluders_in_bvh<features>(scene.tree, buffer, bundle, interval, occluder);
     } else if (!scene.tree.empty()) {
-        visit_occluders_in_tree<features>(scene.tree, buffer, bundle, closed, occluder);
+        visit_occluders_in_bvh<features>(scene.tree, buffer, bundle, interval, occluder);
     }
 }
 

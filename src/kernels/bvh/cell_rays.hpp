@@ -2,17 +2,18 @@
 
 #include "kernels/bvh/walk_ray.hpp"
 
-// The rays of one cell, each for itself, against a box: where boxes are small against a cell,
-// few of its rays meet them.
+// Tests the single rays of a cell against a box: if boxes are small compared with a cell, few of
+// its rays hit them.
 namespace packtrace::PACKTRACE_ISA {
 namespace {
 
-/// A bundle's rays as boxes see them, cell by cell, filled when a cell first needs it.
+/// A bundle's rays prepared for tests against boxes. Each cell is filled when it is first needed.
 struct SlabRays {
     alignas(32) float near_org[3][bundle_rays];  ///< times inv; moved so that boxes seem nearer
-    alignas(32) float far_org[3][bundle_rays];   ///< and further
-    alignas(32) float inv[3][bundle_rays];       ///< 1 / direction
-    std::uint32_t filled = 0;                    ///< a bit a cell
+    /// Times inv; moved so that boxes seem further away.
+    alignas(32) float far_org[3][bundle_rays];
+    alignas(32) float inv[3][bundle_rays];  ///< 1 / direction
+    std::uint32_t filled = 0;               ///< one bit per cell
 };
 
 template <class Real>
@@ -33,14 +34,14 @@ inline void fill_cell(SlabRays& slabs, const RayBundle<Real>& bundle, int cell, 
             length = max(length, max(zero - dir, dir));
         }
         reach = reach + vfloat8(extent);
-        vfloat8 reckoned = at_most8(max(reach, length), vfloat8(abi::largest_coordinate));
-        reckoned = blend(at_most8(vfloat8(smallest_length), length), zero, reckoned);
+        vfloat8 reckoned = max(reach, length) <= vfloat8(abi::largest_coordinate);
+        reckoned = blend(vfloat8(smallest_length) <= length, zero, reckoned);
         const vfloat8 pad = vfloat8(slack) * reach;
         for (int axis = 0; axis < 3; ++axis) {
             const vfloat8 org = load8(bundle.org[axis] + first);
             const vfloat8 dir = load8(bundle.dir[axis] + first);
             const vfloat8 size = max(zero - dir, dir);
-            const vfloat8 along = at_most8(size, vfloat8(smallest_component));
+            const vfloat8 along = size <= vfloat8(smallest_component);
             const vfloat8 inv =
                 blend(along, vfloat8(1.0f) / dir, vfloat8(1.0f / smallest_component));
             const vfloat8 near = blend(inv, org + pad, org - pad);
@@ -52,7 +53,7 @@ inline void fill_cell(SlabRays& slabs, const RayBundle<Real>& bundle, int cell, 
     }
 }
 
-/// The active rays of a cell that may meet a box before they end.
+/// The active rays of a cell that may hit a box before they end.
 template <class Real>
 inline std::uint32_t meet_rays(const SlabRays& slabs, const RayBundle<Real>& bundle, int cell,
                                const float (&low)[3], const float (&high)[3])
@@ -75,7 +76,22 @@ inline std::uint32_t meet_rays(const SlabRays& slabs, const RayBundle<Real>& bun
     return hits & bundle.active[cell];
 }
 
-/// Not below `t`, in single precision.
+/// Finds the rays of a bundle's cells that may hit a box. Each cell is filled in `slabs` when it is
+/// first needed.
+template <class Real>
+struct CellRays {
+    const abi::BvhView<Real>& bvh;
+    SlabRays& slabs;
+    const RayBundle<Real>& bundle;
+
+    std::uint32_t operator()(int cell, const float (&low)[3], const float (&high)[3]) const
+    {
+        fill_cell(slabs, bundle, cell, bvh.extent, bvh.slack);
+        return meet_rays(slabs, bundle, cell, low, high);
+    }
+};
+
+/// `t` in single precision, not rounded down.
 template <class Real>
 inline float float_above(Real t)
 {
@@ -83,7 +99,7 @@ inline float float_above(Real t)
     return sizeof(Real) == sizeof(float) ? rounded : rounded * 1.000001f;
 }
 
-/// A ray of a filled cell for a walk of its own.
+/// A ray of a filled cell, for its own traversal.
 template <class Real>
 inline SlabRay slab_ray(const SlabRays& slabs, const RayBundle<Real>& bundle, int ray)
 {

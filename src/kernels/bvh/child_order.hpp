@@ -7,22 +7,21 @@
 #include "kernel_abi/bvh_view.hpp"
 #include "kernels/simd/vfloat8.hpp"
 
-// The children of a node that are met, in their order. AVX2 sorts them in a register: six rounds of
-// Batcher's bitonic network ("Sorting Networks and their Applications", 1968), without a branch to
-// guess.
+// Sorts the children of a node that are hit. With AVX2 they are sorted in a register, by six rounds
+// of Batcher's bitonic network ("Sorting Networks and their Applications", 1968), without branches.
 namespace packtrace::PACKTRACE_ISA {
 namespace {
 
 #if PACKTRACE_LANES > 4
 
-/// The lower of each pair of `keys` and `partner` where `lower` says so, else the higher.
+/// The smaller of each pair of `keys` and `partner` in the elements of `lower`, else the larger.
 inline __m256i compare_exchange(__m256i keys, __m256i partner, __m256i lower)
 {
     return _mm256_blendv_epi8(_mm256_max_epi32(keys, partner), _mm256_min_epi32(keys, partner),
                               lower);
 }
 
-/// Falling.
+/// Sorts in descending order.
 inline __m256i sorted(__m256i keys)
 {
     const auto neighbours = [](__m256i v) { return _mm256_shuffle_epi32(v, 0xb1); };
@@ -36,13 +35,13 @@ inline __m256i sorted(__m256i keys)
     return compare_exchange(keys, neighbours(keys), _mm256_setr_epi32(0, -1, 0, -1, 0, -1, 0, -1));
 }
 
-/// The children of a node that are met, the furthest first.
+/// The children of a node that are hit, the furthest first.
 struct ChildOrder {
     alignas(32) std::int32_t slot[abi::node_width];
     int count;
 
-    /// Distances are not negative: they sort as integers do, and their last three bits are spared
-    /// for the slots.
+    /// Distances are not negative, so they sort as integers do. Their last three bits are replaced
+    /// by the slot.
     ChildOrder(std::uint32_t met, vfloat8 t_near) : count(__builtin_popcount(met))
     {
         const __m256i slots = _mm256_setr_epi32(0, 1, 2, 3, 4, 5, 6, 7);
@@ -60,7 +59,7 @@ struct ChildOrder {
 
 #else
 
-/// The children of a node that are met, the furthest first.
+/// The children of a node that are hit, the furthest first.
 struct ChildOrder {
     std::int32_t slot[abi::node_width];
     int count = 0;

@@ -4,11 +4,11 @@
 #include "kernels/bvh/near_spheres.hpp"
 #include "kernels/lists/closest.hpp"
 
-// The closest hit of a single ray in the hierarchy.
+// The closest hit of a single ray in the BVH.
 namespace packtrace::PACKTRACE_ISA {
 namespace {
 
-/// Takes the closest hit on a leaf's spheres, if it comes before that of the ray.
+/// Keeps the closest hit with a leaf's spheres, if it is closer than the ray's hit.
 template <abi::Features F, class Real>
 inline void closest_of_spheres(RayBundle<Real>& bundle, int ray, const BlockRay<Real>& alone,
                                const SphereLeaf<Real>& leaf, const abi::ShapesView& shapes)
@@ -36,27 +36,27 @@ inline void closest_of_spheres(RayBundle<Real>& bundle, int ray, const BlockRay<
     }
 }
 
-/// An object of a run.
+/// Keeps the closest hits of a packet with one object of a run.
 template <abi::Features F, class Real, class Own>
-inline void keep_of_run(HitPacket<Real>& hit, const abi::BvhView<Real>& tree, int number,
+inline void keep_of_run(HitPacket<Real>& hit, const abi::BvhView<Real>& bvh, int number,
                         const RayBundle<Real>& bundle, const RayPacket<Real>& rays, const Own& own)
 {
-    with_object_of_run(tree, number, [&](const auto& record, const auto& shape) {
+    with_object_of_run(bvh, number, [&](const auto& record, const auto& shape) {
         if constexpr (F.exact)
-            keep_certain<false>(hit, leaf_filter(number, record, shape, bundle), rays,
-                                RayScale(rays), own);
+            keep_certain<Origin::any>(hit, leaf_filter(number, record, shape, bundle), rays,
+                                      RayScale(rays), own);
         else
             keep_closest(hit, record, rays, own);
     });
 }
 
 template <abi::Features F, class Real>
-[[gnu::noinline]] void closest_of_run(const abi::BvhView<Real>& tree, RayBundle<Real>& bundle,
+[[gnu::noinline]] void closest_of_run(const abi::BvhView<Real>& bvh, RayBundle<Real>& bundle,
                                       int ray, int begin, int count)
 {
-    const abi::Primitive kind = primitive_of_run(tree, begin);
+    const abi::Primitive kind = primitive_of_run(bvh, begin);
     const StepScope step(step_of(kind));
-    tell_live(1);
+    record_live(1);
     count_tests(kind, count);
     const RayPacket<Real> rays = broadcast_ray(bundle, ray);
     load_rival_of_ray<Real>(ray);
@@ -64,7 +64,7 @@ template <abi::Features F, class Real>
                         vreal<Real>(bundle.t_low[ray]), vreal<Real>(bundle.other[ray])};
     const OwnSurface own{vint<Real>(bundle.own[ray])};
     for (int i = 0; i < count; ++i)
-        keep_of_run<F>(hit, tree, begin + i, bundle, rays, own);
+        keep_of_run<F>(hit, bvh, begin + i, bundle, rays, own);
     alignas(64) lane_int<Real> surface[lanes<Real>];
     store(surface, hit.surface);
     bundle.t[ray] = first_lane<Real>(hit.t);
@@ -76,27 +76,26 @@ template <abi::Features F, class Real>
     }
 }
 
-/// The ray, which is `alone`, against one leaf.
+/// Tests a ray, which `alone` holds too, against one leaf.
 template <abi::Features F, class Real>
-inline void closest_of_leaf(const abi::BvhView<Real>& tree, RayBundle<Real>& bundle, int ray,
+inline void closest_of_leaf(const abi::BvhView<Real>& bvh, RayBundle<Real>& bundle, int ray,
                             const BlockRay<Real>& alone, std::uint32_t child)
 {
     if (F.quadrics && abi::is_run(child))
-        return closest_of_run<F>(tree, bundle, ray, abi::first_of_run(child),
-                                 abi::run_count(child));
-    abi::SphereBlock<Real> room;
-    closest_of_spheres<F>(bundle, ray, alone, sphere_leaf(tree, child, room), *tree.shapes);
+        return closest_of_run<F>(bvh, bundle, ray, abi::first_of_run(child), abi::run_count(child));
+    abi::SphereBlock<Real> gathered;
+    closest_of_spheres<F>(bundle, ray, alone, sphere_leaf(bvh, child, gathered), *bvh.shapes);
 }
 
-/// The ray against all below `child`.
+/// Tests a ray against everything below `child`.
 template <abi::Features F, class Real>
-inline void closest_of_ray(const abi::BvhView<Real>& tree, const SlabRays& slabs,
+inline void closest_of_ray(const abi::BvhView<Real>& bvh, const SlabRays& slabs,
                            RayBundle<Real>& bundle, int ray, std::uint32_t child)
 {
     const BlockRay<Real> alone(bundle, ray);
     SlabRay slab = slab_ray(slabs, bundle, ray);
-    walk_ray(tree, child, slab, [&](std::uint32_t leaf) {
-        closest_of_leaf<F>(tree, bundle, ray, alone, leaf);
+    walk_ray(bvh, child, slab, [&](std::uint32_t leaf) {
+        closest_of_leaf<F>(bvh, bundle, ray, alone, leaf);
         slab.t_max = float_above(bundle.t[ray]);
         return true;
     });

@@ -4,11 +4,11 @@
 #include "kernels/bvh/walk_cells.hpp"
 #include "kernels/geometry/kinds.hpp"
 
-// The coherent cells of a bundle and the spheres of leaves, whatever is asked of them.
+// Coherent cells of a bundle and the spheres of leaves, for every kind of search.
 namespace packtrace::PACKTRACE_ISA {
 namespace {
 
-/// The sphere in one place of a block.
+/// The quadratic of the sphere in one slot of a block.
 template <class Real>
 inline Quadratic<Real> quadratic_of(const abi::SphereBlock<Real>& block, int slot,
                                     const RayPacket<Real>& rays)
@@ -21,7 +21,7 @@ inline Quadratic<Real> quadratic_of(const abi::SphereBlock<Real>& block, int slo
     return sphere_quadratic<Real>(rays, o, radius2, sphere_constant<Real>(o, radius2));
 }
 
-/// Not below any of a cell's `t`, in single precision.
+/// The largest `t` of a cell's rays in single precision, not rounded down.
 template <class Real>
 inline float furthest(const RayBundle<Real>& bundle, int cell)
 {
@@ -30,7 +30,7 @@ inline float furthest(const RayBundle<Real>& bundle, int cell)
     return sizeof(Real) == sizeof(float) ? most : most * 1.000001f;
 }
 
-/// The coherent cells' rays go as far as the bundle says; the others nowhere.
+/// Sets the ends of the coherent cells' rays from the bundle; the rays of other cells hit nothing.
 template <class Real>
 inline void start_coherent(CellBounds& bounds, const RayBundle<Real>& bundle)
 {
@@ -39,8 +39,7 @@ inline void start_coherent(CellBounds& bounds, const RayBundle<Real>& bundle)
     join_t_max(bounds);
 }
 
-/// Calls `visit(slot, cell)` for the spheres of a block and the cells of `cells` that may meet
-/// them.
+/// Calls `visit(slot, cell)` for the spheres of a block and the cells of `cells` that may hit them.
 template <class Real, class Visit>
 inline void visit_spheres(const CellBounds& bounds, const abi::SphereBlock<Real>& block,
                           std::uint32_t cells, const Visit& visit)
@@ -67,8 +66,8 @@ inline void visit_spheres(const CellBounds& bounds, const abi::SphereBlock<Real>
     }
 }
 
-/// The bounds of a block's spheres for a bundle's rays, side by side, from when one is first asked
-/// for.
+/// The error bounds of a block's spheres for the rays of a bundle, side by side. They are computed
+/// when first needed.
 class BlockBounds {
 public:
     BlockBounds(const RayBundle<float>& bundle, const abi::SphereBlock<float>& block)
@@ -76,14 +75,14 @@ public:
     {
     }
 
-    /// Finds them; before that nothing else may be asked.
+    /// Computes them. Must be called before any other function.
     void need()
     {
         if (!is_set_)
             set();
     }
 
-    /// The rays of a packet of the bundle relative to the sphere in one place of the block.
+    /// The origins of a packet of the bundle relative to the sphere in one slot.
     [[nodiscard]] Vec3v<float> from_center(int slot, const RayPacket<float>& rays) const
     {
         return rays.org - Vec3v<float>{vreal<float>(block_.center[0][slot]),
@@ -124,9 +123,10 @@ private:
         is_set_ = true;
     }
 
-    /// A block, or a packet where that is more.
-    static constexpr int room = lanes<float> > abi::node_width ? lanes<float> : abi::node_width;
-    using Values = float[room];
+    /// The larger of a block and a packet.
+    static constexpr int value_count =
+        lanes<float> > abi::node_width ? lanes<float> : abi::node_width;
+    using Values = float[value_count];
 
     const RayBundle<float>& bundle_;
     const abi::SphereBlock<float>& block_;

@@ -8,14 +8,13 @@
 #include "kernels/simd/lanes.hpp"
 #endif
 
-// Ray numbers are bytes: where there is an instruction, eight at once are moved to where they
-// belong by a table.
+// Copies ray numbers, which are bytes. On x86 a table and a shuffle instruction move eight at once.
 namespace packtrace::PACKTRACE_ISA {
 namespace {
 
 #if defined(__x86_64__)
 
-/// As many places behind the last ray may be overwritten.
+/// Up to this many bytes after the last ray may be overwritten.
 inline constexpr int copy_step = 8;
 
 constexpr CompressTable<copy_step, 1> chosen_bytes;
@@ -25,7 +24,7 @@ inline __m128i load_bytes(const std::uint8_t* from)
     return _mm_loadl_epi64(reinterpret_cast<const __m128i*>(from));
 }
 
-/// Copies the `rays` that have a bit for `slot` in `met`, and returns how many they are.
+/// Copies the `rays` that have a bit for `slot` in `met`; returns their number.
 inline int copy_rays(std::uint8_t* to, const std::uint8_t* rays, const std::uint8_t* met, int count,
                      int slot)
 {
@@ -46,10 +45,10 @@ inline int copy_rays(std::uint8_t* to, const std::uint8_t* rays, const std::uint
 
 #else
 
-/// As many places behind the last ray may be overwritten.
+/// Up to this many bytes after the last ray may be overwritten.
 inline constexpr int copy_step = 1;
 
-/// Copies the `rays` that have a bit for `slot` in `met`, and returns how many they are.
+/// Copies the `rays` that have a bit for `slot` in `met`; returns their number.
 inline int copy_rays(std::uint8_t* to, const std::uint8_t* rays, const std::uint8_t* met, int count,
                      int slot)
 {

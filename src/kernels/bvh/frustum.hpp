@@ -4,42 +4,42 @@
 #include "kernels/bvh/bundle.hpp"
 #include "kernels/simd/vfloat8.hpp"
 
-// Intervals that hold the rays of a cell, of a quarter of the bundle (four cells) and of the
-// whole: of their origins, and of the reciprocals of their directions. All bounds are in single
-// precision with room for rounding, whatever the rays are in.
+// Interval frustums of the rays of a cell, of a quarter of the bundle (four cells), and of the
+// whole bundle: intervals of origins and of reciprocal directions. All bounds are in single
+// precision and allow for rounding, whatever the precision of the rays.
 namespace packtrace::PACKTRACE_ISA {
 namespace {
 
 inline constexpr int first_quarter = bundle_cells;
 inline constexpr int whole_bundle = first_quarter + 4;
-inline constexpr int frustum_count = 24;  ///< 21, and room for whole registers
+inline constexpr int frustum_count = 24;  ///< 21, rounded up to whole registers
 
 struct alignas(32) CellBounds {
     float org_low[3][frustum_count];
     float org_high[3][frustum_count];
-    float inv_low[3][frustum_count];  ///< of the same sign as inv_high
+    float inv_low[3][frustum_count];  ///< same sign as inv_high
     float inv_high[3][frustum_count];
-    float t_max[frustum_count];  ///< nothing further matters to any ray
-    /// A bit for each cell with rays that run close to each other's way; the bounds of the others
-    /// are not set.
+    float t_max[frustum_count];  ///< no ray needs anything beyond
+    /// One bit per coherent cell, whose rays run close to each other. The bounds of other cells are
+    /// not set.
     std::uint32_t coherent;
 };
 
-/// Intervals of one quantity over cells, quarters and all.
+/// Intervals of one value, over cells, quarters and the whole bundle.
 struct CellRange {
     alignas(32) float low[frustum_count];
     alignas(32) float high[frustum_count];
 };
 
 inline constexpr float no_end = __builtin_inff();
-/// An axis along which nothing is known has its origins in [-open_axis, open_axis].
+/// Along an axis that is not bounded, origins are in [-open_axis, open_axis].
 inline constexpr float open_axis = 1e30f;
-/// Components of directions smaller than this are as good as 0 for rays at least that long.
+/// Smaller components of directions count as 0, for rays that are at least smallest_length long.
 inline constexpr float smallest_component = 1e-18f;
 inline constexpr float smallest_length = 1e-12f;
 
-/// The least and largest value of each cell's rays; NaN is left out, a cell without any rays is
-/// inside out.
+/// The smallest and largest value of each cell's rays. NaN is ignored; a cell without active rays
+/// has low > high.
 template <class Real>
 inline void find_cells(CellRange& range, const Real (&values)[bundle_rays],
                        const RayBundle<Real>& bundle)
@@ -66,7 +66,7 @@ inline void find_cells(CellRange& range, const Real (&values)[bundle_rays],
     }
 }
 
-/// One value for all rays.
+/// Sets all intervals to one value.
 inline void set_all(CellRange& range, float value)
 {
     for (int first = 0; first < frustum_count; first += 8) {
@@ -75,7 +75,7 @@ inline void set_all(CellRange& range, float value)
     }
 }
 
-/// Quarters and the whole from the cells.
+/// Computes the intervals of quarters and of the whole bundle from those of the cells.
 inline void join_cells(CellRange& range)
 {
     const auto low_of = [](float a, float b) { return a < b ? a : b; };
@@ -100,8 +100,8 @@ inline vfloat8 size8(vfloat8 low, vfloat8 high)
     return max(vfloat8(0.0f) - low, high);
 }
 
-/// What is the same along all axes: how far rays and boxes are apart at most, and whether the
-/// rays are of a size that single precision reckons with. Sign bits say so.
+/// The values that all axes share: the largest distance between rays and boxes, and whether the
+/// rays have magnitudes that single precision can handle, as sign bits.
 struct FrustumScale {
     vfloat8 reach;
     vfloat8 reckoned;
@@ -119,13 +119,13 @@ inline FrustumScale frustum_scale(const CellRange (&org)[3], const CellRange (&d
     reach = reach + vfloat8(extent);
     const vfloat8 zero(0.0f);
     const vfloat8 large(abi::largest_coordinate);
-    vfloat8 reckoned = at_most8(max(reach, length), large);
-    reckoned = blend(at_most8(vfloat8(smallest_length), length), zero, reckoned);
+    vfloat8 reckoned = max(reach, length) <= large;
+    reckoned = blend(vfloat8(smallest_length) <= length, zero, reckoned);
     return {reach, reckoned};
 }
 
-/// Fills one axis of eight frustums. Rays on both sides of an axis leave it open; those along it
-/// are treated as all but along it.
+/// Fills one axis of eight frustums. If the directions of a frustum have both signs along an axis,
+/// it is not bounded along that axis. Rays perpendicular to an axis count as nearly so.
 inline void set_axis(CellBounds& bounds, int axis, const CellRange& org, const CellRange& dir,
                      const FrustumScale& scale, float slack, int first)
 {
@@ -134,10 +134,10 @@ inline void set_axis(CellBounds& bounds, int axis, const CellRange& org, const C
     const vfloat8 minus_tiny(-smallest_component);
     const vfloat8 low = load8(dir.low + first);
     const vfloat8 high = load8(dir.high + first);
-    const vfloat8 along = at_most8(size8(low, high), tiny);
-    const vfloat8 against = at_most8(high, minus_tiny);
-    // Sign bits: the interval of directions is on one side of zero.
-    vfloat8 one_sided = blend(at_most8(tiny, low), against, at_most8(tiny, low));
+    const vfloat8 along = size8(low, high) <= tiny;
+    const vfloat8 against = high <= minus_tiny;
+    // Sign bits: the interval of directions does not contain zero.
+    vfloat8 one_sided = blend(tiny <= low, against, tiny <= low);
     one_sided = blend(along, one_sided, along);
     const vfloat8 known = blend(scale.reckoned, vfloat8(0.0f), one_sided);
 
@@ -153,7 +153,7 @@ inline void set_axis(CellBounds& bounds, int axis, const CellRange& org, const C
     store8(bounds.org_high[axis] + first, blend(known, vfloat8(open_axis), org_high));
 }
 
-/// The cells with any active ray.
+/// The cells with at least one active ray.
 template <class Real>
 inline std::uint32_t active_cells(const RayBundle<Real>& bundle)
 {
@@ -163,7 +163,7 @@ inline std::uint32_t active_cells(const RayBundle<Real>& bundle)
     return cells;
 }
 
-/// Those whose directions differ little; and those without rays, whose bounds are inside out.
+/// The cells whose directions differ little, and those without active rays, where low > high.
 inline std::uint32_t coherent_cells(const CellRange (&dir)[3], float largest_spread)
 {
     std::uint32_t coherent = 0;
@@ -184,7 +184,7 @@ inline std::uint32_t coherent_cells(const CellRange (&dir)[3], float largest_spr
 
 inline constexpr std::uint32_t all_cells = (1u << bundle_cells) - 1u;
 
-/// Leaves cells out of the quarters and the whole.
+/// Excludes cells from the quarters and the whole bundle.
 inline void leave_out(CellRange& range, std::uint32_t cells)
 {
     for (; cells != 0; cells &= cells - 1) {
@@ -194,8 +194,8 @@ inline void leave_out(CellRange& range, std::uint32_t cells)
     }
 }
 
-/// Those of `cells` whose origins are no further apart than that: rays of one direction share no
-/// way from places far apart.
+/// The cells of `cells` whose origins are at most `furthest` apart: parallel rays from distant
+/// origins hit different boxes.
 inline std::uint32_t close_cells(const CellRange (&org)[3], float furthest, std::uint32_t cells)
 {
     std::uint32_t close = 0;
@@ -208,11 +208,12 @@ inline std::uint32_t close_cells(const CellRange (&org)[3], float furthest, std:
     return cells & close;
 }
 
-/// How far apart a coherent cell's origins may be, by what its directions may be apart over all of
-/// the hierarchy: results/parallel_rays.json.
+/// How far apart the origins of a coherent cell may be, relative to how far its directions may
+/// spread over the extent of the BVH: results/parallel_rays.json.
 inline constexpr float origins_apart = 2.0f;
 
-/// The origins of a bundle's cells; of those in bounds.coherent, which are too far apart leave it.
+/// Finds the origins of a bundle's cells. Removes cells from bounds.coherent whose origins are too
+/// far apart.
 template <class Real>
 inline void find_origins(CellRange (&org)[3], CellBounds& bounds, const RayBundle<Real>& bundle,
                          float furthest)
@@ -226,11 +227,11 @@ inline void find_origins(CellRange (&org)[3], CellBounds& bounds, const RayBundl
     }
 }
 
-/// The bounds of a bundle's active rays, to meet the boxes of a hierarchy. Cells are coherent up to
-/// `spread` (abi::BvhView). With `one_origin` the bundle's is set.
+/// Computes the bounds of a bundle's active rays, for tests against the boxes of a BVH. Cells with
+/// at most `spread` (abi::BvhView) are coherent. With `one_origin`, bundle.origin is used.
 template <class Real>
 inline void bound_cells(CellBounds& bounds, const RayBundle<Real>& bundle,
-                        const abi::BvhView<Real>& tree, float spread, bool one_origin)
+                        const abi::BvhView<Real>& bvh, float spread, bool one_origin)
 {
     CellRange org[3];
     CellRange dir[3];
@@ -243,7 +244,7 @@ inline void bound_cells(CellBounds& bounds, const RayBundle<Real>& bundle,
         for (int axis = 0; axis < 3; ++axis)
             set_all(org[axis], bundle.origin[axis]);
     else
-        find_origins(org, bounds, bundle, origins_apart * spread * tree.extent);
+        find_origins(org, bounds, bundle, origins_apart * spread * bvh.extent);
     if (bounds.coherent == 0)
         return;
     for (int axis = 0; axis < 3; ++axis) {
@@ -251,13 +252,13 @@ inline void bound_cells(CellBounds& bounds, const RayBundle<Real>& bundle,
         join_cells(dir[axis]);
     }
     for (int first = 0; first < frustum_count; first += 8) {
-        const FrustumScale scale = frustum_scale(org, dir, tree.extent, first);
+        const FrustumScale scale = frustum_scale(org, dir, bvh.extent, first);
         for (int axis = 0; axis < 3; ++axis)
-            set_axis(bounds, axis, org[axis], dir[axis], scale, tree.slack, first);
+            set_axis(bounds, axis, org[axis], dir[axis], scale, bvh.slack, first);
     }
 }
 
-/// Quarters' and the whole bundle's t_max from the cells'.
+/// Computes the t_max of quarters and of the whole bundle from those of the cells.
 inline void join_t_max(CellBounds& bounds)
 {
     const auto further = [&](int a, int b) {
@@ -273,7 +274,7 @@ inline void join_t_max(CellBounds& bounds)
     bounds.t_max[whole_bundle] = left > right ? left : right;
 }
 
-/// The smallest of the frustums above that holds all cells of `cells`, which is not 0.
+/// The smallest frustum that contains all cells of `cells`, which is not 0.
 inline int frustum_of(std::uint32_t cells)
 {
     if ((cells & (cells - 1)) == 0)

@@ -4,25 +4,27 @@
 #include "kernels/bvh/occluded_ray.hpp"
 #include "kernels/simd/float_bits.hpp"
 
-// What stands in the way of a bundle of rays from one point light, or towards one light from a
-// direction, by the light's own view of the hierarchy's spheres in place of the hierarchy.
+// Occlusion of a bundle of rays from one point light or towards one directional light, by the light
+// buffer instead of the BVH.
 namespace packtrace::PACKTRACE_ISA {
 namespace {
 
-/// Where the rays of a packet lie in the grid.
+/// The grid cells of the rays of a packet.
 struct LightCells {
-    alignas(64) std::int32_t cell[lanes<float>];  ///< of those that are inside
-    alignas(64) float depth[lanes<float>];        ///< as LightCell has it, where segments end
-    std::uint32_t inside;                         ///< the lanes that any cell sees
+    alignas(64) std::int32_t cell[lanes<float>];  ///< for the lanes of `inside`
+    /// Depth as in LightCell, where the shadow segments end.
+    alignas(64) float depth[lanes<float>];
+    std::uint32_t inside;  ///< lanes inside the grid
 };
 
-/// The cell of each place in [0, size), but for those on the line between two, which are in either.
+/// The cell number of each position in [0, size). A position on the line between two cells is in
+/// either.
 inline vreal<float> cell_number(const vreal<float>& place)
 {
     return to_real<float>(to_int<float>(place - vreal<float>(0.5f)));
 }
 
-/// How far from the light segments end, towards the points that it may light.
+/// The depth at which shadow segments end, at the points that the light may reach.
 inline vreal<float> segment_depth(const abi::LightBuffer& buffer, const RayPacket<float>& rays,
                                   const vreal<float>& t_end, const vreal<float>& ahead)
 {
@@ -50,8 +52,8 @@ inline LightCells cells_of(const abi::LightBuffer& buffer, const RayPacket<float
     return cells;
 }
 
-/// The cells of a bundle, out of `cells`, with active rays that start too far from the spheres for
-/// the grid to tell where they pass.
+/// The bundle's cells out of `cells` with active rays that start too far from the spheres for the
+/// grid to be accurate.
 inline std::uint32_t cells_beyond(const abi::LightBuffer& buffer, const RayBundle<float>& bundle,
                                   std::uint32_t cells)
 {
@@ -69,7 +71,7 @@ inline std::uint32_t cells_beyond(const abi::LightBuffer& buffer, const RayBundl
     return beyond;
 }
 
-/// What a packet of a block's spheres does to a ray.
+/// Which spheres of a packet of a block occlude a ray.
 inline Occlusion spheres_occlude(const LoneRay& ray, const RayBundle<float>& bundle, int number,
                                  const abi::LightBlock& block, int first)
 {
@@ -84,12 +86,12 @@ inline Occlusion spheres_occlude(const LoneRay& ray, const RayBundle<float>& bun
     return occludes(test, near, ray.rays, ray.scale, vreal<float>(bundle.t[number]));
 }
 
-/// Whether a sphere of its cell is in the way of a ray for sure.
+/// Whether any sphere of a grid cell certainly occludes a ray.
 inline bool is_dark(const abi::LightBuffer& buffer, const abi::LightCell& cell,
                     const abi::ShapesView& shapes, RayBundle<float>& bundle, int number)
 {
     const StepScope step(abi::Step::spheres);
-    tell_live(all_lanes<float>);
+    record_live(all_lanes<float>);
     const LoneRay ray(bundle, number);
     for (int i = cell.first; i < cell.first + cell.count; ++i) {
         const abi::LightBlock& block = buffer.blocks[i];
@@ -106,8 +108,8 @@ inline bool is_dark(const abi::LightBuffer& buffer, const abi::LightCell& cell,
     return false;
 }
 
-/// Ends the active rays of `cells` of a bundle, which all start at the light or run towards it,
-/// that a sphere is in the way of among those that the light sees.
+/// Ends the active rays of `cells` of a bundle that a sphere in the light buffer occludes. All rays
+/// start at the light or run towards it.
 [[gnu::noinline]] inline void end_in_light_buffer(const abi::LightBuffer& buffer,
                                                   const abi::ShapesView& shapes,
                                                   RayBundle<float>& bundle, std::uint32_t cells)

@@ -2,11 +2,11 @@
 
 #include "kernels/bvh/block_ray.hpp"
 
-// One ray against those spheres of a block that it does not miss for sure, side by side.
+// Tests one ray against the spheres of a block that it does not certainly miss, side by side.
 namespace packtrace::PACKTRACE_ISA {
 namespace {
 
-/// One ray of a bundle in every lane.
+/// One ray of a bundle, in every lane.
 struct LoneRay {
     RayPacket<float> rays;
     RayScale scale;
@@ -17,7 +17,7 @@ struct LoneRay {
     }
 };
 
-/// The ray and the spheres from `first` on of a block.
+/// The test of a ray and the spheres of a block from `first` on.
 template <class Block>
 inline SphereTest test_of(const LoneRay& ray, const RayBundle<float>& bundle, const Block& block,
                           int first)
@@ -29,7 +29,7 @@ inline SphereTest test_of(const LoneRay& ray, const RayBundle<float>& bundle, co
     return {ray.rays.org - center, radius * radius, leaf_bounds(bundle, radius)};
 }
 
-/// As keep_sure() and keep_doubt() do with a packet of rays.
+/// keep_sure() and keep_doubt() of filter.hpp, for one ray of a bundle.
 inline void keep_sure(RayBundle<float>& bundle, int ray, float low, float high,
                       std::int32_t surface)
 {
@@ -53,25 +53,25 @@ inline void keep_doubt(RayBundle<float>& bundle, int ray, float low, std::int32_
     note_rival_of_ray(ray, rival);
 }
 
-/// Keeps the hit on a sphere of which bounds can't tell, as double has it. One of `at_end` may have
-/// it before t_min; another may touch the sphere or pass it.
+/// Keeps the hit with a sphere that error bounds could not decide, computed in double. With
+/// `at_end` the hit exists but may be before t_min; else it may not exist.
 inline void keep_by_double(RayBundle<float>& bundle, int ray, const abi::SphereShape& sphere,
                            float low, std::int32_t surface, bool at_end)
 {
-    const FirstMeeting meeting = first_meeting(sphere, wide_ray(bundle, ray));
-    if (meeting.there == InDouble::yes)
-        keep_sure(bundle, ray, meeting.low, meeting.high, surface);
-    else if (meeting.there == InDouble::undecided)
+    const FirstHit hit = first_hit(sphere, wide_ray(bundle, ray));
+    if (hit.there == InDouble::yes)
+        keep_sure(bundle, ray, hit.low, hit.high, surface);
+    else if (hit.there == InDouble::undecided)
         keep_doubt(bundle, ray, low, rival_in_doubt(at_end));
 }
 
-/// Where a ray may meet spheres first beyond its t_min, and not behind what it hits by then.
+/// Where a ray may hit spheres first beyond its t_min, and not behind its hit so far.
 struct BlockHits {
     alignas(64) float low[lanes<float>];
     alignas(64) float high[lanes<float>];
-    std::uint32_t may;     ///< lanes
-    std::uint32_t counts;  ///< those that it meets so for sure
-    std::uint32_t sure;    ///< those that it crosses for sure
+    std::uint32_t may;     ///< lanes that it may hit
+    std::uint32_t counts;  ///< lanes that it certainly hits there
+    std::uint32_t sure;    ///< lanes whose sphere its line certainly hits
 };
 
 inline void find_hits(BlockHits& hits, const LoneRay& ray, const SphereTest& test,
@@ -97,8 +97,8 @@ inline void find_hits(BlockHits& hits, const LoneRay& ray, const SphereTest& tes
     store(hits.high, first.high);
 }
 
-/// Without the sphere that the ray starts on, and without places that no sphere is in: from very
-/// far nothing tells these from spheres.
+/// `near` without the sphere that the ray starts on and without unused slots, which far away look
+/// like spheres.
 inline std::uint32_t others_of(std::uint32_t near, const SphereLeaf<float>& leaf, std::int32_t own)
 {
     for (std::uint32_t left = near; left != 0; left &= left - 1) {
@@ -109,7 +109,8 @@ inline std::uint32_t others_of(std::uint32_t near, const SphereLeaf<float>& leaf
     return near;
 }
 
-/// Keeps the hits of a ray on the spheres of `near`. Where bounds can't tell, double is asked.
+/// Keeps the hits of a ray with the spheres of `near`. Hits that error bounds cannot decide are
+/// computed in double.
 [[gnu::noinline]] inline void keep_near_spheres(RayBundle<float>& bundle, int ray,
                                                 const SphereLeaf<float>& leaf,
                                                 const abi::ShapesView& shapes, std::uint32_t near)
@@ -137,8 +138,8 @@ inline std::uint32_t others_of(std::uint32_t near, const SphereLeaf<float>& leaf
     }
 }
 
-/// Asks double about the lanes of `unsure`, whose spheres may be in the way of a ray; `surface` are
-/// the spheres of all lanes. Returns those that are.
+/// Decides in double the lanes of `unsure`, whose spheres may occlude a ray; `surface` are the
+/// surfaces of all lanes. Returns the lanes that do.
 inline std::uint32_t blocked_by_double(RayBundle<float>& bundle, int ray,
                                        const abi::ShapesView& shapes, const std::int32_t* surface,
                                        std::uint32_t unsure)
@@ -156,8 +157,8 @@ inline std::uint32_t blocked_by_double(RayBundle<float>& bundle, int ray,
     return blocked;
 }
 
-/// A bit for each sphere of `near` that is in the way of a ray up to its end for sure; rays that
-/// others may be in the way of are marked.
+/// A bit for each sphere of `near` that certainly occludes a ray up to its end. The ray is marked
+/// as unsure if others may.
 [[gnu::noinline]] inline std::uint32_t blocking_spheres(RayBundle<float>& bundle, int ray,
                                                         const SphereLeaf<float>& leaf,
                                                         const abi::ShapesView& shapes,
@@ -166,7 +167,7 @@ inline std::uint32_t blocked_by_double(RayBundle<float>& bundle, int ray,
     near = others_of(near, leaf, bundle.own[ray]);
     if (near == 0)
         return 0;
-    // Rays that end at a sphere are hardly ever sure of it.
+    // Rays that end at a sphere are hardly ever certain about it.
     for (std::uint32_t left = near; left != 0; left &= left - 1)
         fetch_sphere(shapes, leaf.surface_of(__builtin_ctz(left)));
     const LoneRay lone(bundle, ray);

@@ -8,9 +8,9 @@
 namespace packtrace::PACKTRACE_ISA {
 namespace {
 
-/// What objects do to the rays that they block: end them, as opaque shadows and occlusion have it,
-/// or what a callable of the caller's says. It is called with an object's surface and the lanes it
-/// blocks of the packet at `first`, and returns those that nothing further matters to.
+/// What happens to occluded rays: they end, as for opaque shadows, or a callable of the caller
+/// decides. It is called with the object's surface and the occluded lanes of the packet at `first`,
+/// and returns the lanes that need no further occluders.
 class Occluder {
 public:
     Occluder() = default;
@@ -27,14 +27,14 @@ private:
     Callback<std::uint32_t(std::int32_t surface, int first, std::uint32_t lanes)> call_;
 };
 
-/// Takes lanes of a packet out of the active ones.
+/// Removes lanes of a packet from the active ones.
 template <class Real>
 inline void finish_lanes(RayBundle<Real>& bundle, int first, std::uint32_t done)
 {
     bundle.active[first / cell_rays] &= static_cast<std::uint16_t>(~(done << first % cell_rays));
 }
 
-/// A single ray of a bundle meets what blocks it; whether it goes on behind that.
+/// Reports an occluder of a single ray of a bundle; returns whether the ray continues behind it.
 template <class Real>
 inline bool goes_behind(RayBundle<Real>& bundle, int ray, std::int32_t surface,
                         const Occluder& occluder)
@@ -44,21 +44,22 @@ inline bool goes_behind(RayBundle<Real>& bundle, int ray, std::int32_t surface,
     return is_active(bundle, ray);
 }
 
-/// What an object of a run does to a packet until t_end.
+/// Which lanes of a packet an object of a run occludes up to t_end.
 template <abi::Features F, class Real>
-inline Occlusion object_occludes(const abi::BvhView<Real>& tree, int number,
+inline Occlusion object_occludes(const abi::BvhView<Real>& bvh, int number,
                                  const RayBundle<Real>& bundle, const RayPacket<Real>& rays,
                                  const vreal<Real>& t_end, const OwnSurface<vint<Real>>& own,
-                                 bool closed)
+                                 RayInterval interval)
 {
-    return with_object_of_run(tree, number, [&](const auto& record, const auto& shape) {
+    return with_object_of_run(bvh, number, [&](const auto& record, const auto& shape) {
         if constexpr (F.exact) {
-            return occludes<false>(leaf_filter(number, record, shape, bundle), rays, RayScale(rays),
-                                   t_end, CertainOthers{own, all_lanes<float>});
+            return occludes<Origin::any>(leaf_filter(number, record, shape, bundle), rays,
+                                         RayScale(rays), t_end,
+                                         CertainOthers{own, all_lanes<float>});
         } else {
             const Body body = body_of(record);
             return Occlusion{
-                but_own<Real>(occluding_lanes(RayEnd<Real>{t_end, closed}, record, rays), own,
+                but_own<Real>(occluding_lanes(RayEnd<Real>{t_end, interval}, record, rays), own,
                               body),
                 0};
         }
@@ -66,56 +67,56 @@ inline Occlusion object_occludes(const abi::BvhView<Real>& tree, int number,
 }
 
 template <abi::Features F, class Real>
-[[gnu::noinline]] bool goes_behind_run(const abi::BvhView<Real>& tree, RayBundle<Real>& bundle,
-                                       int ray, bool closed, std::uint32_t child,
+[[gnu::noinline]] bool goes_behind_run(const abi::BvhView<Real>& bvh, RayBundle<Real>& bundle,
+                                       int ray, RayInterval interval, std::uint32_t child,
                                        const Occluder& occluder)
 {
-    const abi::Primitive kind = primitive_of_run(tree, abi::first_of_run(child));
+    const abi::Primitive kind = primitive_of_run(bvh, abi::first_of_run(child));
     const StepScope step(step_of(kind));
-    tell_live(1);
+    record_live(1);
     const RayPacket<Real> rays = broadcast_ray(bundle, ray);
     const OwnSurface<vint<Real>> own{vint<Real>(bundle.own[ray])};
     for (int i = 0; i < abi::run_count(child); ++i) {
         const int number = abi::first_of_run(child) + i;
         count_tests(kind, 1);
-        const Occlusion occlusion =
-            object_occludes<F>(tree, number, bundle, rays, vreal<Real>(bundle.t[ray]), own, closed);
+        const Occlusion occlusion = object_occludes<F>(bvh, number, bundle, rays,
+                                                       vreal<Real>(bundle.t[ray]), own, interval);
         if (occlusion.unsure != 0)
             doubt_ray(bundle, ray, occlusion.unsure);
-        if (occlusion.blocked != 0 &&
-            !goes_behind(bundle, ray, tree.run_surfaces[number], occluder))
+        if (occlusion.blocked != 0 && !goes_behind(bundle, ray, bvh.run_surfaces[number], occluder))
             return false;
     }
     return true;
 }
 
-/// A bit for each sphere of a leaf that is in the way of a ray, which is `alone`.
+/// A bit for each sphere of a leaf that occludes a ray, which `alone` holds too.
 template <abi::Features F, class Real>
 inline std::uint32_t blocking_spheres_of(RayBundle<Real>& bundle, int ray,
                                          const BlockRay<Real>& alone, const SphereLeaf<Real>& leaf,
-                                         const abi::ShapesView& shapes, bool closed)
+                                         const abi::ShapesView& shapes, RayInterval interval)
 {
     if constexpr (F.exact) {
         const std::uint32_t near = alone.near(leaf.block, bundle, ray);
         return near == 0 ? 0 : blocking_spheres(bundle, ray, leaf, shapes, near);
     } else {
-        return alone.blocked_by(leaf.block, bundle.t[ray], closed);
+        return alone.blocked_by(leaf.block, bundle.t[ray], interval);
     }
 }
 
-/// The ray, which is `alone`, against one leaf.
+/// Tests a ray, which `alone` holds too, against one leaf; returns whether it continues behind it.
 template <abi::Features F, class Real>
-inline bool goes_behind_leaf(const abi::BvhView<Real>& tree, RayBundle<Real>& bundle, int ray,
-                             const BlockRay<Real>& alone, bool closed, std::uint32_t child,
+inline bool goes_behind_leaf(const abi::BvhView<Real>& bvh, RayBundle<Real>& bundle, int ray,
+                             const BlockRay<Real>& alone, RayInterval interval, std::uint32_t child,
                              const Occluder& occluder)
 {
     if (F.quadrics && abi::is_run(child))
-        return goes_behind_run<F>(tree, bundle, ray, closed, child, occluder);
+        return goes_behind_run<F>(bvh, bundle, ray, interval, child, occluder);
     const StepScope step(abi::Step::spheres);
-    abi::SphereBlock<Real> room;
-    const SphereLeaf<Real> leaf = sphere_leaf(tree, child, room);
+    abi::SphereBlock<Real> gathered;
+    const SphereLeaf<Real> leaf = sphere_leaf(bvh, child, gathered);
     count_block_tests(leaf.block);
-    std::uint32_t blocking = blocking_spheres_of<F>(bundle, ray, alone, leaf, *tree.shapes, closed);
+    std::uint32_t blocking =
+        blocking_spheres_of<F>(bundle, ray, alone, leaf, *bvh.shapes, interval);
     for (; blocking != 0; blocking &= blocking - 1) {
         const std::int32_t surface = leaf.surface_of(__builtin_ctz(blocking));
         if (surface != bundle.own[ray] && !goes_behind(bundle, ray, surface, occluder))
@@ -124,16 +125,16 @@ inline bool goes_behind_leaf(const abi::BvhView<Real>& tree, RayBundle<Real>& bu
     return true;
 }
 
-/// The ray against all below `child`.
+/// Finds the occluders of a ray below `child`.
 template <abi::Features F, class Real>
-inline void occluders_of_ray(const abi::BvhView<Real>& tree, const SlabRays& slabs,
-                             RayBundle<Real>& bundle, int ray, std::uint32_t child, bool closed,
-                             const Occluder& occluder)
+inline void occluders_of_ray(const abi::BvhView<Real>& bvh, const SlabRays& slabs,
+                             RayBundle<Real>& bundle, int ray, std::uint32_t child,
+                             RayInterval interval, const Occluder& occluder)
 {
     const BlockRay<Real> alone(bundle, ray);
     SlabRay slab = slab_ray(slabs, bundle, ray);
-    walk_ray(tree, child, slab, [&](std::uint32_t leaf) {
-        return goes_behind_leaf<F>(tree, bundle, ray, alone, closed, leaf, occluder);
+    walk_ray(bvh, child, slab, [&](std::uint32_t leaf) {
+        return goes_behind_leaf<F>(bvh, bundle, ray, alone, interval, leaf, occluder);
     });
 }
 

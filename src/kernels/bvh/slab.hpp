@@ -2,18 +2,19 @@
 
 #include "kernels/bvh/frustum.hpp"
 
-// Boxes against frustums, by the distances at which the frustum's rays enter and leave the slabs
-// between opposite faces (Kay and Kajiya, "Ray Tracing Complex Scenes", 1986), in intervals.
+// Tests boxes against frustums: compares the distances at which the frustum's rays enter and leave
+// the slabs between opposite faces (Kay and Kajiya, "Ray Tracing Complex Scenes", 1986), in
+// interval arithmetic.
 namespace packtrace::PACKTRACE_ISA {
 namespace {
 
-/// Where any ray of a frustum may be inside a box.
+/// The result of testing a frustum, or a ray, against eight boxes.
 struct SlabHits {
     vfloat8 t_near;
-    std::uint32_t hits;  ///< a bit each: near comes before far
+    std::uint32_t hits;  ///< one bit per box: it is entered before it is left
 };
 
-/// vfloat8 boxes side by side, however they come about.
+/// Eight boxes side by side.
 struct EightBoxes {
     vfloat8 low[3];
     vfloat8 high[3];
@@ -29,7 +30,7 @@ inline EightBoxes boxes_of(const abi::BvhNode& node)
     return boxes;
 }
 
-/// A little more than a block's spheres take.
+/// The boxes of a block's spheres, slightly enlarged.
 template <class Real>
 inline EightBoxes boxes_of(const abi::SphereBlock<Real>& block)
 {
@@ -43,7 +44,7 @@ inline EightBoxes boxes_of(const abi::SphereBlock<Real>& block)
     return boxes;
 }
 
-/// One frustum against eight boxes.
+/// Tests one frustum against eight boxes.
 inline SlabHits meet_boxes(const CellBounds& bounds, int frustum, const EightBoxes& boxes)
 {
     vfloat8 t_near(0.0f);
@@ -64,7 +65,7 @@ inline SlabHits meet_boxes(const CellBounds& bounds, int frustum, const EightBox
     return {t_near, less_equal8(t_near, t_far)};
 }
 
-/// The cells of `cells` whose rays may meet one box.
+/// The cells of `cells` whose rays may hit one box.
 inline std::uint32_t meet_cells(const CellBounds& bounds, const float (&low)[3],
                                 const float (&high)[3], std::uint32_t cells)
 {

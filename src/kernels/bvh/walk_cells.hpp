@@ -4,54 +4,53 @@
 #include "kernels/bvh/slab.hpp"
 #include "kernels/stats/observe.hpp"
 
-// A bundle of rays goes through the hierarchy as one frustum. Each node on the way is met by the
-// cells that may still see it: the frustum narrows to a quarter, and to one cell, by itself as
-// nodes get small against it.
+// A bundle of rays traverses the BVH as one frustum. Each node is tested against the cells that may
+// still hit it, so the frustum narrows to a quarter and then to one cell as nodes get smaller.
 namespace packtrace::PACKTRACE_ISA {
 namespace {
 
-/// Deeper than any hierarchy can make it: eight children a level, and the builder bounds the
+/// Enough entries for any BVH: a level adds at most seven, and the builder bounds the number of
 /// levels.
 inline constexpr int walk_stack = 7 * abi::bvh_levels + 8;
 
-/// A child still to be looked at.
+/// A child that is still to be visited.
 struct WalkEntry {
     std::uint32_t node;
     std::uint16_t slot;
-    std::uint16_t cells;  ///< that may meet it
-    float t_near;         ///< no ray meets it earlier
+    std::uint16_t cells;  ///< cells that may hit it
+    float t_near;         ///< no ray enters it before
 };
 
 class WalkStack {
 public:
     bool empty() const
     {
-        return size_ == 0;
+        return entry_count_ == 0;
     }
     WalkEntry pop()
     {
-        return entries_[--size_];
+        return entries_[--entry_count_];
     }
     void push(const WalkEntry& entry)
     {
-        entries_[size_++] = entry;
+        entries_[entry_count_++] = entry;
     }
 
 private:
     WalkEntry entries_[walk_stack];
-    int size_ = 0;
+    int entry_count_ = 0;
 };
 
-/// Has the memory bring a child that will be looked at soon. Addresses are integers here: a tree of
-/// cells alone has no blocks, and nothing is read.
+/// Prefetches a child that will be visited soon. Addresses are computed as integers, because a BVH
+/// without spheres has no blocks; nothing is read.
 template <class Real>
-inline void fetch_child(const abi::BvhView<Real>& tree, std::uint32_t child)
+inline void fetch_child(const abi::BvhView<Real>& bvh, std::uint32_t child)
 {
     const bool leaf = abi::is_leaf(child);
     const std::uintptr_t address =
-        leaf ? reinterpret_cast<std::uintptr_t>(tree.blocks) +
-                   sizeof(*tree.blocks) * (child & abi::block_mask)
-             : reinterpret_cast<std::uintptr_t>(tree.nodes) + sizeof(*tree.nodes) * child;
+        leaf ? reinterpret_cast<std::uintptr_t>(bvh.blocks) +
+                   sizeof(*bvh.blocks) * (child & abi::block_mask)
+             : reinterpret_cast<std::uintptr_t>(bvh.nodes) + sizeof(*bvh.nodes) * child;
     const auto fetch = [address](int line) {
         __builtin_prefetch(
             reinterpret_cast<const char*>(address + 64u * static_cast<unsigned>(line)));
@@ -64,13 +63,13 @@ inline void fetch_child(const abi::BvhView<Real>& tree, std::uint32_t child)
     fetch(3);
 }
 
-/// Puts the children of a node that the cells may meet on the stack.
+/// Pushes the children of a node that the cells may hit.
 template <class Real>
-inline void push_children(WalkStack& stack, const abi::BvhView<Real>& tree, std::uint32_t index,
+inline void push_children(WalkStack& stack, const abi::BvhView<Real>& bvh, std::uint32_t index,
                           const CellBounds& bounds, std::uint32_t cells)
 {
     count_bundle_node();
-    const abi::BvhNode& node = tree.nodes[index];
+    const abi::BvhNode& node = bvh.nodes[index];
     const SlabHits slabs = meet_boxes(bounds, frustum_of(cells), boxes_of(node));
     if (slabs.hits == 0)
         return;
@@ -79,13 +78,13 @@ inline void push_children(WalkStack& stack, const abi::BvhView<Real>& tree, std:
     const ChildOrder order(slabs.hits, slabs.t_near);
     for (int i = 0; i < order.count; ++i) {
         const int slot = order.slot[i];
-        fetch_child(tree, node.child[slot]);
+        fetch_child(bvh, node.child[slot]);
         stack.push({index, static_cast<std::uint16_t>(slot), static_cast<std::uint16_t>(cells),
                     t_near[slot]});
     }
 }
 
-/// One child's box.
+/// The box of one child.
 struct ChildBox {
     float low[3];
     float high[3];
@@ -97,24 +96,26 @@ struct ChildBox {
     }
 };
 
-/// Rays of a cell that are better off alone than with the cell; results/tree_designs.json.
+/// Up to this many rays of a cell are traversed alone, which is then faster;
+/// results/tree_designs.json.
 inline constexpr int few_rays = 4;
 
-/// Takes a bundle's coherent cells through the hierarchy. `visit(child, cells)` is called for the
-/// leaves that cells may meet, nearest first as far as boxes tell; where only few rays of one cell
-/// may meet a child, `visit.few_rays(child, cell, rays)` takes over, and `visit.rays_of(cell,
-/// low, high)` tells which. All lower the t_max of `bounds` as they find hits.
-template <class Real, class Visit>
-inline void walk_cells(const abi::BvhView<Real>& tree, const CellBounds& bounds,
-                       std::uint32_t cells, const Visit& visit)
+/// Traverses the BVH with a bundle's coherent cells. `visit(child, cells)` is called for the leaves
+/// that cells may hit, nearest first as far as boxes tell. If only few rays of one cell may hit a
+/// child, `visit.few_rays(child, cell, rays)` is called instead; `rays_of(cell, low, high)` returns
+/// the rays of a cell that may hit a box (CellRays). `visit` reduces the t_max of `bounds` when it
+/// finds hits.
+template <class Real, class RaysOf, class Visit>
+inline void walk_cells(const abi::BvhView<Real>& bvh, const CellBounds& bounds, std::uint32_t cells,
+                       const RaysOf& rays_of, const Visit& visit)
 {
     if (cells == 0)
         return;
     WalkStack stack;
-    push_children(stack, tree, 0, bounds, cells);
+    push_children(stack, bvh, 0, bounds, cells);
     while (!stack.empty()) {
         const WalkEntry entry = stack.pop();
-        const abi::BvhNode& node = tree.nodes[entry.node];
+        const abi::BvhNode& node = bvh.nodes[entry.node];
         const std::uint32_t child = node.child[entry.slot];
         const ChildBox box(node, entry.slot);
         std::uint32_t open = entry.cells;
@@ -122,7 +123,7 @@ inline void walk_cells(const abi::BvhView<Real>& tree, const CellBounds& bounds,
             const int cell = __builtin_ctz(open);
             if (entry.t_near > bounds.t_max[cell])
                 continue;
-            const std::uint32_t rays = visit.rays_of(cell, box.low, box.high);
+            const std::uint32_t rays = rays_of(cell, box.low, box.high);
             if (__builtin_popcount(rays) <= few_rays) {
                 if (rays != 0)
                     visit.few_rays(child, cell, rays);
@@ -136,7 +137,7 @@ inline void walk_cells(const abi::BvhView<Real>& tree, const CellBounds& bounds,
         if (abi::is_leaf(child))
             visit(child, open);
         else
-            push_children(stack, tree, child, bounds, open);
+            push_children(stack, bvh, child, bounds, open);
     }
 }
 

@@ -3,19 +3,20 @@
 #include "kernels/bvh/cell_rays.hpp"
 #include "kernels/bvh/copy_rays.hpp"
 
-// Rays of one octant of directions through the hierarchy, listed by the boxes they meet: a node is
-// looked at once for all of them, and no ray waits for another's branches (Barringer and
+// Traverses the BVH with lists of rays of one octant of directions. A node is tested against all
+// rays of its list one after another, and no ray waits for the branches of another (Barringer and
 // Akenine-Möller, "Dynamic Ray Stream Traversal", 2014).
 namespace packtrace::PACKTRACE_ISA {
 namespace {
 
-/// Rays of a child that are better off each on its own way.
+/// Up to this many rays of a child are traversed alone, which is then faster.
 inline constexpr int short_list = 2;
 
-/// How many rays all lists hold at most. Where a node's rays find no room, they go on alone.
-inline constexpr int list_room = 16 * bundle_rays;
+/// The capacity of all lists together, in rays. If a node's rays do not fit, they are traversed
+/// alone.
+inline constexpr int list_capacity = 16 * bundle_rays;
 
-/// A child still to be looked at, and its list.
+/// A child that is still to be visited, and its list.
 struct ListEntry {
     std::uint32_t child;
     std::uint16_t first;
@@ -37,7 +38,7 @@ struct FacingBoxes {
     }
 };
 
-/// One ray against them.
+/// Tests one ray against these boxes.
 inline SlabHits meet_boxes(const FacingBoxes& boxes, const SlabRays& slabs, int ray, float t_max)
 {
     vfloat8 t_near(0.0f);
@@ -51,7 +52,7 @@ inline SlabHits meet_boxes(const FacingBoxes& boxes, const SlabRays& slabs, int 
     return {t_near, less_equal8(t_near, t_far)};
 }
 
-/// The rays of a bundle by the octant of their directions.
+/// The rays of a bundle, sorted by the octant of their direction.
 class OctantLists {
 public:
     void add(const SlabRays& slabs, int ray)
@@ -59,60 +60,60 @@ public:
         int octant = 0;
         for (int axis = 0; axis < 3; ++axis)
             octant |= (slabs.inv[axis][ray] < 0.0f ? 1 : 0) << axis;
-        rays_[octant][count_[octant]++] = static_cast<std::uint8_t>(ray);
+        rays_[octant][ray_count_[octant]++] = static_cast<std::uint8_t>(ray);
     }
 
-    /// Calls `visit(octant, rays, count)` for each octant that any ray is in.
+    /// Calls `visit(octant, rays, count)` for each octant with at least one ray.
     template <class Visit>
     void for_each(const Visit& visit) const
     {
         for (int octant = 0; octant < octants; ++octant)
-            if (count_[octant] != 0)
-                visit(octant, rays_[octant], count_[octant]);
+            if (ray_count_[octant] != 0)
+                visit(octant, rays_[octant], ray_count_[octant]);
     }
 
 private:
     static constexpr int octants = 8;
-    int count_[octants] = {};
+    int ray_count_[octants] = {};
     std::uint8_t rays_[octants][bundle_rays];
 };
 
-/// Lists the active rays of cells, which it fills.
+/// Fills cells, and lists their active rays.
 template <class Real>
-inline void list_rays(OctantLists& octants, SlabRays& slabs, const abi::BvhView<Real>& tree,
+inline void list_rays(OctantLists& octants, SlabRays& slabs, const abi::BvhView<Real>& bvh,
                       const RayBundle<Real>& bundle, std::uint32_t cells)
 {
     for (std::uint32_t left = cells; left != 0; left &= left - 1)
-        fill_cell(slabs, bundle, __builtin_ctz(left), tree.extent, tree.slack);
+        fill_cell(slabs, bundle, __builtin_ctz(left), bvh.extent, bvh.slack);
     for_each_active(bundle, cells, [&](int ray) { octants.add(slabs, ray); });
 }
 
-/// The walk of lists of rays of one octant.
+/// Traverses the BVH with lists of rays of one octant.
 template <class Real, class Visit>
 class ListWalk {
 public:
-    /// `visit.leaf(child, ray)` is called for a ray and a leaf that it may meet, and
-    /// `visit.lone(child, ray)` for one that goes on alone below a child. Both lower the ray's t in
-    /// the bundle as they find hits.
-    ListWalk(const abi::BvhView<Real>& tree, const SlabRays& slabs, const RayBundle<Real>& bundle,
+    /// `visit.leaf(child, ray)` is called for a ray and a leaf that it may hit, `visit.lone(child,
+    /// ray)` for a ray that is traversed alone below a child. Both reduce the ray's t in the bundle
+    /// when they find hits.
+    ListWalk(const abi::BvhView<Real>& bvh, const SlabRays& slabs, const RayBundle<Real>& bundle,
              const Visit& visit)
-        : tree_(tree), slabs_(slabs), bundle_(bundle), visit_(visit)
+        : bvh_(bvh), slabs_(slabs), bundle_(bundle), visit_(visit)
     {
     }
 
-    /// Takes rays of filled cells.
+    /// Traverses rays of filled cells.
     void walk(int octant, const std::uint8_t* rays, int count)
     {
         for (int i = 0; i < count; ++i)
             lists_[i] = rays[i];
         push(0, 0, count);
-        while (size_ > 0) {
-            const ListEntry entry = entries_[--size_];
+        while (entry_count_ > 0) {
+            const ListEntry entry = entries_[--entry_count_];
             if (entry.count > short_list && abi::is_leaf(entry.child))
                 for (int i = 0; i < entry.count; ++i)
                     visit_.leaf(entry.child, lists_[entry.first + i]);
-            else if (entry.count > short_list && has_room(entry))
-                share_out(entry, octant);
+            else if (entry.count > short_list && fits_in_lists(entry))
+                distribute(entry, octant);
             else
                 for (int i = 0; i < entry.count; ++i)
                     visit_.lone(entry.child, lists_[entry.first + i]);
@@ -120,23 +121,24 @@ public:
     }
 
 private:
-    /// Whether all its rays could be in the lists of all its children.
-    static bool has_room(const ListEntry& entry)
+    /// Whether the lists can hold all rays of the entry once per child.
+    static bool fits_in_lists(const ListEntry& entry)
     {
-        return entry.first + abi::node_width * entry.count < list_room;
+        return entry.first + abi::node_width * entry.count < list_capacity;
     }
 
     void push(std::uint32_t child, int first, int count)
     {
-        entries_[size_++] = {child, static_cast<std::uint16_t>(first),
-                             static_cast<std::uint16_t>(count)};
+        entries_[entry_count_++] = {child, static_cast<std::uint16_t>(first),
+                                    static_cast<std::uint16_t>(count)};
     }
 
-    /// Lists the rays of a node by the children they meet, those of the nearest on top.
-    void share_out(const ListEntry& entry, int octant)
+    /// Distributes the rays of a node to lists of its children; the list of the nearest child is on
+    /// top.
+    void distribute(const ListEntry& entry, int octant)
     {
         count_bundle_node();
-        const abi::BvhNode& node = tree_.nodes[entry.child];
+        const abi::BvhNode& node = bvh_.nodes[entry.child];
         const FacingBoxes boxes(node, octant);
         std::uint8_t rays[bundle_rays];
         std::uint8_t met[bundle_rays];
@@ -153,31 +155,31 @@ private:
         int end = entry.first;
         for (int child = 0; child < children.count; ++child) {
             const int slot = children.slot[child];
-            fetch_child(tree_, node.child[slot]);
+            fetch_child(bvh_, node.child[slot]);
             const int first = end;
             end += copy_rays(lists_ + end, rays, met, entry.count, slot);
             push(node.child[slot], first, end - first);
         }
     }
 
-    const abi::BvhView<Real>& tree_;
+    const abi::BvhView<Real>& bvh_;
     const SlabRays& slabs_;
     const RayBundle<Real>& bundle_;
     const Visit& visit_;
-    int size_ = 0;
+    int entry_count_ = 0;
     ListEntry entries_[walk_stack];
-    std::uint8_t lists_[list_room + copy_step];
+    std::uint8_t lists_[list_capacity + copy_step];
 };
 
-/// Takes the active rays of cells in lists of one octant each; `slabs` is the one that `visit`
-/// sees.
+/// Traverses the BVH with the active rays of cells, in lists of one octant each; `slabs` is the one
+/// that `visit` uses.
 template <class Real, class Visit>
-inline void walk_in_lists(const abi::BvhView<Real>& tree, SlabRays& slabs,
+inline void walk_in_lists(const abi::BvhView<Real>& bvh, SlabRays& slabs,
                           const RayBundle<Real>& bundle, std::uint32_t cells, const Visit& visit)
 {
     OctantLists octants;
-    list_rays(octants, slabs, tree, bundle, cells);
-    ListWalk<Real, Visit> lists(tree, slabs, bundle, visit);
+    list_rays(octants, slabs, bvh, bundle, cells);
+    ListWalk<Real, Visit> lists(bvh, slabs, bundle, visit);
     octants.for_each(
         [&](int octant, const std::uint8_t* rays, int count) { lists.walk(octant, rays, count); });
 }

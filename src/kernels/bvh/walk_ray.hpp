@@ -2,21 +2,21 @@
 
 #include "kernels/bvh/walk_cells.hpp"
 
-// A single ray through the hierarchy, against the eight boxes of a node at once: for rays that
-// share no way.
+// Traverses the BVH with a single ray, tested against the eight boxes of a node at once: for rays
+// that are not coherent.
 namespace packtrace::PACKTRACE_ISA {
 namespace {
 
-/// A ray as the boxes see it, in single precision with room for rounding.
+/// A ray prepared for tests against boxes, in single precision with allowance for rounding.
 struct SlabRay {
     float near_org[3];  ///< times inv; moved so that boxes seem nearer
-    float far_org[3];   ///< and further
+    float far_org[3];   ///< times inv; moved so that boxes seem further away
     float inv[3];       ///< 1 / direction
     float t_max;
-    int near_row[3];  ///< of BvhNode's rows low x, y, z, high x, y, z: where the ray enters
+    int near_row[3];  ///< where the ray enters, as a row of BvhNode: low x, y, z, high x, y, z
 };
 
-/// The ray against eight boxes.
+/// Tests a ray against eight boxes.
 inline SlabHits meet_boxes(const SlabRay& ray, const abi::BvhNode& node)
 {
     const float* const planes = node.low[0];
@@ -36,7 +36,7 @@ inline SlabHits meet_boxes(const SlabRay& ray, const abi::BvhNode& node)
     return {t_near, less_equal8(t_near, t_far)};
 }
 
-/// A child still to be looked at by one ray.
+/// A child that is still to be visited by one ray.
 struct RayEntry {
     std::uint32_t child;
     float t_near;
@@ -46,13 +46,13 @@ class RayStack {
 public:
     void push(std::uint32_t child, float t_near)
     {
-        entries_[size_++] = {child, t_near};
+        entries_[entry_count_++] = {child, t_near};
     }
-    /// The next child that begins before `t_max`; false when there is none.
+    /// Pops the next child that begins before `t_max`; false if there is none.
     bool pop(float t_max, std::uint32_t& child)
     {
-        while (size_ > 0) {
-            const RayEntry& entry = entries_[--size_];
+        while (entry_count_ > 0) {
+            const RayEntry& entry = entries_[--entry_count_];
             if (entry.t_near <= t_max) {
                 child = entry.child;
                 return true;
@@ -63,11 +63,11 @@ public:
 
 private:
     RayEntry entries_[walk_stack];
-    int size_ = 0;
+    int entry_count_ = 0;
 };
 
-/// Goes on to the nearest child of a node that the ray meets, the others onto the stack; false
-/// when it meets none.
+/// Continues with the nearest child of a node that the ray hits, and pushes the others; false if it
+/// hits none.
 template <class Fetch>
 inline bool enter_node(const abi::BvhNode& node, const SlabRay& ray, const Fetch& fetch,
                        RayStack& stack, std::uint32_t& child)
@@ -108,17 +108,17 @@ inline bool enter_node(const abi::BvhNode& node, const SlabRay& ray, const Fetch
     return true;
 }
 
-/// Calls `leaf(child)` for the leaves below `child` that the ray may meet, nearest first as far as
-/// boxes tell, until it returns false. `leaf` lowers `ray.t_max` as it finds hits.
+/// Calls `leaf(child)` for the leaves below `child` that the ray may hit, nearest first as far as
+/// boxes tell, until it returns false. `leaf` reduces `ray.t_max` when it finds hits.
 template <class Real, class Leaf>
-inline void walk_ray(const abi::BvhView<Real>& tree, std::uint32_t child, SlabRay& ray,
+inline void walk_ray(const abi::BvhView<Real>& bvh, std::uint32_t child, SlabRay& ray,
                      const Leaf& leaf)
 {
-    const auto fetch = [&](std::uint32_t next) { fetch_child(tree, next); };
+    const auto fetch = [&](std::uint32_t next) { fetch_child(bvh, next); };
     RayStack stack;
     for (;;) {
         if (!abi::is_leaf(child)) {
-            if (enter_node(tree.nodes[child], ray, fetch, stack, child))
+            if (enter_node(bvh.nodes[child], ray, fetch, stack, child))
                 continue;
         } else if (!leaf(child)) {
             return;

@@ -3,12 +3,12 @@
 #include "kernels/fused/path.hpp"
 #include "kernels/shade/shadow.hpp"
 
-// Whether hits see a light: mostly a few products tell that nothing is in the way (plan.hpp). Where
-// they don't, shadow rays are traced as those of a stream are (shade/shadow.hpp).
+// Whether a light reaches hits. Mostly a few products show that no object is in between (plan.hpp).
+// If they do not, shadow rays are traced as for streams (shade/shadow.hpp).
 namespace packtrace::PACKTRACE_ISA {
 namespace {
 
-/// The lanes of `among` that are on other objects than `body`.
+/// The lanes of `among` that are not on `body`.
 inline std::uint32_t on_others(const HitState& at, std::uint32_t among, const Body& body)
 {
     return at.common >= 0 || among == 0
@@ -16,7 +16,7 @@ inline std::uint32_t on_others(const HitState& at, std::uint32_t among, const Bo
                : among & ~lanes_on_body<float>(at.number, body.first, body.pieces);
 }
 
-/// The lanes of `wanted` for which the planes in front of a light's large objects tell nothing.
+/// The lanes of `wanted` that the planes in front of a light's large objects do not decide.
 inline std::uint32_t behind_planes(const NeededTests& needed, const HitState& at,
                                    std::uint32_t wanted)
 {
@@ -29,14 +29,14 @@ inline std::uint32_t behind_planes(const NeededTests& needed, const HitState& at
     return open;
 }
 
-/// What is told without intervals: the lanes for sure in shadow, and those of which nothing is
-/// told.
+/// The result of the quick tests: lanes that are certainly in shadow, and lanes that are not
+/// decided.
 struct QuickShadow {
     std::uint32_t blocked = 0;
     std::uint32_t open = 0;
 };
 
-/// Of the lanes of `wanted` towards a directional light.
+/// Tests the lanes of `wanted` towards a directional light.
 inline QuickShadow shadow_along(const ClearTests& tests, const HitState& at,
                                 const Vec3v<float>& light, std::uint32_t wanted)
 {
@@ -65,7 +65,7 @@ inline QuickShadow shadow_along(const ClearTests& tests, const HitState& at,
     return shadow;
 }
 
-/// The same towards a point light, to which `to_light` leads, of `length`.
+/// The same towards a point light; `to_light` leads to it and has `length`.
 inline QuickShadow shadow_towards(const ClearTests& tests, const HitState& at,
                                   const Vec3v<float>& to_light, const vreal<float>& length2,
                                   const vreal<float>& length, std::uint32_t wanted)
@@ -81,7 +81,8 @@ inline QuickShadow shadow_towards(const ClearTests& tests, const HitState& at,
         if (near == 0)
             continue;
         near = on_others(at, near, sphere.body);
-        // Still outside where the way ends, and nearing the centre, or leaving it.
+        // Lanes whose segment ends outside the sphere: whether they approach its centre or move
+        // away from it.
         const Vec3v<float> from = at.point - broadcast(sphere.center);
         const vreal<float> away = dot(from, to_light);
         const std::uint32_t outside = bits(dot(from, from) > vreal<float>(sphere.outer2));
@@ -96,7 +97,8 @@ inline QuickShadow shadow_towards(const ClearTests& tests, const HitState& at,
     return shadow;
 }
 
-/// The lanes of `wanted` that see a light, by intervals and, where these can't tell, by double.
+/// The lanes of `wanted` that a light reaches, decided by tests with error bounds and, if these
+/// cannot, in double.
 template <abi::Features F>
 [[gnu::noinline]] std::uint32_t trace_to_light(const FusedTile<F>& tile, int light,
                                                const LightObjects<F, float>* occluders,

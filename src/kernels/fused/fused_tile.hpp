@@ -6,13 +6,13 @@
 
 #include <new>
 
-// A tile whose packets of paths are traced one after the other, each from the eye to its last
-// mirror in registers: no streams, no compaction. For scenes whose objects stand in lists, and
-// where a hit has one child at most.
+// Renders a tile by tracing packets of paths one after another, each from the camera to its last
+// mirror in registers, without streams and compaction. For scenes whose objects are in lists and
+// whose hits have at most one child ray.
 namespace packtrace::PACKTRACE_ISA {
 namespace {
 
-/// Whether a ball tells of each object that has its own test alone.
+/// Whether every quadric and polygon has a finite bounding ball.
 inline bool are_bounded(const abi::GeometryView<float>& scene)
 {
     bool bounded = true;
@@ -40,7 +40,7 @@ inline std::size_t fused_scratch_bytes(const abi::SceneView<float>& scene)
     return FusedMemory<F>(nullptr, scene).bytes;
 }
 
-/// `memory` is of plan_bytes().
+/// `memory` has plan_bytes().
 template <abi::Features F>
 inline void make_plan(const abi::SceneView<float>& scene, const abi::CameraView<float>& camera,
                       void* memory)
@@ -49,7 +49,7 @@ inline void make_plan(const abi::SceneView<float>& scene, const abi::CameraView<
     fill_plan(*plan, scene, camera);
 }
 
-/// Finds the objects that camera rays through a tile may meet.
+/// Finds the objects that camera rays through a tile may hit.
 template <abi::Features F>
 inline void find_visible(const FusedTile<F>& tile, const Cone<float>& cone)
 {
@@ -81,7 +81,7 @@ inline void find_visible(const FusedTile<F>& tile, const Cone<float>& cone)
     }
 }
 
-/// Traces the paths of a packet of camera rays, from number `first` on; returns their colours.
+/// Traces the paths of a packet of camera rays; returns their colours.
 template <abi::Features F>
 inline Vec3v<float> trace_paths(const FusedTile<F>& tile, const RayPacket<float>& rays,
                                 std::uint32_t active)
@@ -90,14 +90,14 @@ inline Vec3v<float> trace_paths(const FusedTile<F>& tile, const RayPacket<float>
     PathStart start;
     path.dir = rays.dir;
     path.dir2 = rays.dir2;
-    set_whole(path.weight);
+    path.weight.set_whole();
     path.active = active;
     path.is_far = false;
-    // Mirrors keep lengths but for a little.
+    // Reflection changes the length of a direction only by rounding.
     path.is_plain = tile.plan.common.are_all && (active & ~bits(certifiable(rays))) == 0;
     trace_generation<Generation::camera>(tile, tile.memory.candidates, path, start, 0);
     for (int depth = 1; path.active != 0; ++depth)
-        trace_generation<Generation::mirrored>(tile, tile.plan.common, path, start, depth);
+        trace_generation<Generation::reflected>(tile, tile.plan.common, path, start, depth);
     return path.color;
 }
 
@@ -111,9 +111,9 @@ inline abi::RayCounts trace_fused_tile(const abi::TileJob<float>& job)
         static_cast<unsigned>(job.samples != nullptr ? job.samples->count : job.width * job.height);
     fetch_picture(job);
     const auto& plan = *static_cast<const FramePlan<F>*>(job.plan);
-    const float(&eye)[3] = job.camera->origin;
+    const float(&origin)[3] = job.camera->origin;
     const FusedTile<F> tile{
-        scene, plan, memory, counts, {eye[0], eye[1], eye[2]}, job.camera->t_min};
+        scene, plan, memory, counts, {origin[0], origin[1], origin[2]}, job.camera->t_min};
     find_visible(tile, camera_cone(job));
     if (memory.candidates.empty() && !(scene.lighting.seen_within > 0)) {
         fill_pixels(memory.color, scene.rules.background);

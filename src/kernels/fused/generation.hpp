@@ -5,24 +5,24 @@
 #include "kernels/stream/spawn.hpp"
 #include "kernels/stream/trace_stream.hpp"
 
-// One generation of a packet of paths: where its rays hit, the light there, and the mirrored
-// rays that take their place. The operations are those of streams, and so are the bits.
+// Traces one generation of a packet of paths: its hits, their light, and the reflected rays that
+// replace its rays. The operations, and so the bits, are those of streams.
 namespace packtrace::PACKTRACE_ISA {
 namespace {
 
-/// What mirrored rays of a packet are tested against that start beyond the plan's origins.
+/// The objects for reflected rays that start outside the plan's origins.
 template <abi::Features F>
-[[gnu::noinline]] const FilteredObjects<false>& objects_from_far(const FusedTile<F>& tile,
-                                                                 const Vec3v<float>& place,
-                                                                 std::uint32_t active)
+[[gnu::noinline]] const FilteredObjects<Origin::any>& objects_from_far(const FusedTile<F>& tile,
+                                                                       const Vec3v<float>& place,
+                                                                       std::uint32_t active)
 {
-    FilteredObjects<false>& objects = tile.memory.from_far;
+    FilteredObjects<Origin::any>& objects = tile.memory.from_far;
     find_objects<F>(objects, origins_of_lanes(place, active), tile.scene);
     return objects;
 }
 
-/// What may be in the way of a light, by light, for hits there. A light that sends rays sees what
-/// it sees.
+/// The possible occluders of a light, by light, for hits outside the plan's origins. For a light
+/// that sends rays they are those of the plan.
 template <abi::Features F>
 [[gnu::noinline]] const LightObjects<F, float>* occluders_from_far(const FusedTile<F>& tile,
                                                                    int light,
@@ -37,15 +37,15 @@ template <abi::Features F>
     return occluders;
 }
 
-/// What camera rays of a tile are tested against: where tests are dear, only what its cone meets.
+/// The objects for a tile's camera rays; if tests are expensive, only those that its cone may hit.
 template <abi::Features F>
-inline const FilteredObjects<true>& from_eye(const FusedTile<F>& tile)
+inline const FilteredObjects<Origin::shared>& objects_from_camera(const FusedTile<F>& tile)
 {
     return F.quadrics ? tile.memory.visible : tile.plan.from_camera;
 }
 
-/// The closest hits of a packet by the search in lists, where find_common_hit() can't tell. Takes
-/// copies, so that the caller's stay in registers.
+/// The closest hits of a packet by the search in lists, where find_common_hit() cannot decide. Its
+/// parameters are copies, so that the caller's values stay in registers.
 template <Generation G, abi::Features F>
 [[gnu::noinline]] void find_any_hits(HitState& hit, const FusedTile<F>& tile,
                                      const RayPacket<float>& rays, bool is_far,
@@ -56,13 +56,14 @@ template <Generation G, abi::Features F>
         G == Generation::camera ? no_start<float>() : start_of(path_start);
     HitPacket<float> found = start_of_search<F>(start, rays.dir2, no_end_yet);
     if constexpr (G == Generation::camera) {
-        closest_hit<F>(found, from_eye(tile), rays, NoOwn{});
+        closest_hit<F>(found, objects_from_camera(tile), rays, NoOwn{});
     } else {
-        const FilteredObjects<false>& objects =
+        const FilteredObjects<Origin::any>& objects =
             is_far ? objects_from_far(tile, rays.org, active) : tile.plan.from_near;
         closest_hit<F>(found, objects, rays, ActiveOwn{start.surface, path_start.common, active});
     }
-    count_unsure(tile.counts, settle_packet<F>(tile.scene, rays, found, start, no_end_yet, active));
+    count_unsure(tile.counts,
+                 correct_packet<F>(tile.scene, rays, found, start, no_end_yet, active));
     hit.lanes = hit_lanes(found) & active;
     if (hit.lanes == 0)
         return;
@@ -74,17 +75,17 @@ template <Generation G, abi::Features F>
     hit.common = static_cast<std::int32_t>(common_number<float>(found.surface, hit.lanes));
 }
 
-/// What is known of a packet of hits while it is lit.
+/// A packet of hits while it is shaded.
 struct LitHits {
     const HitState& at;
-    Vec3v<float> normal;      ///< turned against the ray where the surface's is
+    Vec3v<float> normal;      ///< flipped to face the ray where the surface's normal does
     vreal<float> normal_dir;  ///< N·D
-    vreal<float> floor_dir2;  ///< squared cosine below which nothing shines, times D·D
-    std::uint32_t leaving;    ///< lanes that come from the inside
-    std::uint32_t turned;     ///< lanes whose normal is turned
-    std::uint32_t again;      ///< lanes that may see their own body again
-    bool is_far;              ///< some are beyond the plan's origins
-    bool are_plain;           ///< no lane is one of these
+    vreal<float> floor_dir2;  ///< squared cosine below which there is no highlight, times D·D
+    std::uint32_t leaving;    ///< lanes whose ray comes from inside
+    std::uint32_t turned;     ///< lanes whose normal is flipped
+    std::uint32_t again;      ///< lanes that may hit their own object again
+    bool is_far;              ///< some are outside the plan's origins
+    bool are_plain;           ///< neither `again` nor `is_far`
 };
 
 inline SurfacePacket<float> lit_surface(const LitHits& hits, const Vec3v<float>& dir,
@@ -98,11 +99,11 @@ inline SurfacePacket<float> lit_surface(const LitHits& hits, const Vec3v<float>&
     surface.common = hits.at.common;
     surface.leaving = hits.leaving;
     surface.turned = hits.turned;
-    surface.lift = origin_offset<float>(start_error, surface.point, hits.at.outward);
+    surface.offset = origin_offset<float>(start_error, surface.point, hits.at.outward);
     return surface;
 }
 
-/// The material of each of a packet's hits on several surfaces, or on squares.
+/// The materials of a packet's hits on several surfaces, or on a checker.
 template <abi::Features F>
 [[gnu::noinline]] void fetch_mixed(PlanMaterial& material, const FusedTile<F>& tile,
                                    const HitState& hit)
@@ -113,10 +114,10 @@ template <abi::Features F>
     set_material(surface, tile.scene, hit.lanes);
     material.packet = fetch_materials(tile.scene, surface.material, hit.lanes);
     material.floor2 = shine_floor2(material.packet);
-    material.mirrors = (any_channel(material.packet.reflect) & hit.lanes) != 0;
+    material.reflects = (any_channel(material.packet.reflect) & hit.lanes) != 0;
 }
 
-/// Turns normals against the rays, where they have to be, and finds what comes from inside.
+/// Flips normals to face the rays where necessary, and finds the lanes that come from inside.
 template <abi::Features F>
 [[gnu::noinline]] void turn_normals(LitHits& hits, const FusedTile<F>& tile,
                                     const Vec3v<float>& dir)
@@ -134,7 +135,7 @@ template <abi::Features F>
     hits.normal_dir = dot(hits.normal, dir);
 }
 
-/// The lanes of `packet.wanted` that see a light.
+/// The lanes of `packet.wanted` that a light reaches.
 template <abi::Features F>
 inline std::uint32_t lit_lanes(const FusedTile<F>& tile, const PlanLight& light,
                                const LitHits& hits, const Vec3v<float>& dir,
@@ -162,7 +163,7 @@ inline std::uint32_t lit_lanes(const FusedTile<F>& tile, const PlanLight& light,
     return clear | trace_to_light(tile, light.number, occluders, surface, copy, shadow.open);
 }
 
-/// Adds the light of one source at a packet of hits, in the lanes that see it.
+/// Adds the light of one source at a packet of hits, in the lanes that it reaches.
 template <abi::Features F>
 inline void add_light(const FusedTile<F>& tile, const PlanLight& light, const LitHits& hits,
                       const PathState<F>& path, const PlanMaterial& material, Vec3v<float>& color)
@@ -179,7 +180,7 @@ inline void add_light(const FusedTile<F>& tile, const PlanLight& light, const Li
     }
     const vreal<float> normal_light = dot(hits.normal, packet.to_light);
     const std::uint32_t lit_side = bits(normal_light > zero) & active;
-    // What is below the floor by more than rounding shows no highlight, and needs no root.
+    // Below the floor, by more than rounding errors, there is no highlight and no root is needed.
     const vreal<float> mirror =
         nmadd(normal_light + normal_light, hits.normal_dir, dot(packet.to_light, path.dir));
     const std::uint32_t shining = bits(mirror * abs(mirror) >= hits.floor_dir2 * length2) & active;
@@ -207,18 +208,18 @@ inline void add_light(const FusedTile<F>& tile, const PlanLight& light, const Li
         color = color + lit_color(light.record, packet, material.packet, lit, tile.counts);
 }
 
-/// Adds the light at a packet of hits to the pixels.
+/// Adds the light at a packet of hits to the paths' colours.
 template <Generation G, abi::Features F>
 inline void add_hits(PathState<F>& path, const Vec3v<float>& light, std::uint32_t hits)
 {
     Vec3v<float> color = light;
-    if constexpr (G == Generation::mirrored)
+    if constexpr (G == Generation::reflected)
         color = path.color + path.weight.of(color);
     path.color =
         hits == all_lanes<float> ? color : select(from_bits<float>(hits), color, path.color);
 }
 
-/// What the lanes bring that hit nothing.
+/// Adds the light of lanes that hit nothing.
 template <Generation G, abi::Features F>
 inline void add_escaped(const FusedTile<F>& tile, PathState<F>& path, std::uint32_t missed)
 {
@@ -232,7 +233,7 @@ inline void add_escaped(const FusedTile<F>& tile, PathState<F>& path, std::uint3
             select(from_bits<float>(missed), path.color + path.weight.of(beyond), path.color);
 }
 
-/// Where rays that leave from inside meet the same body again.
+/// Where rays that leave a surface hit the same object again.
 template <abi::Features F>
 [[gnu::noinline]] SecondHit<float> find_second(const FusedTile<F>& tile, const LitHits& hits,
                                                const Vec3v<float>& dir, std::uint32_t active)
@@ -241,24 +242,24 @@ template <abi::Features F>
                              vreal<float>(tile.scene.rules.secondary_t_min), ~hits.leaving, active);
 }
 
-/// Replaces the rays of a packet by those that its hits mirror.
+/// Replaces the rays of a packet by the reflected rays of its hits.
 template <abi::Features F>
-inline void mirror_rays(const FusedTile<F>& tile, PathState<F>& path, PathStart& start,
-                        const LitHits& hits, const PlanMaterial& material)
+inline void reflect_rays(const FusedTile<F>& tile, PathState<F>& path, PathStart& start,
+                         const LitHits& hits, const PlanMaterial& material)
 {
     const HitState& at = hits.at;
-    path.active = material.mirrors ? at.lanes & any_channel(material.packet.reflect) : 0;
+    path.active = material.reflects ? at.lanes & any_channel(material.packet.reflect) : 0;
     if (path.active == 0)
         return;
     tile.counts.reflected += static_cast<unsigned>(__builtin_popcount(path.active));
     tile.counts.passed |= abi::passed_mirrored;
-    const Vec3v<float> lift =
+    const Vec3v<float> offset =
         origin_offset<float>(tile.scene.rules.start_error, at.point, at.outward);
     path.dir = madd<float>(hits.normal_dir * vreal<float>(-2.0f), hits.normal, path.dir);
     path.dir2 = dot(path.dir, path.dir);
     path.weight.reflect(material.packet.reflect);
     path.is_far = hits.is_far;
-    path.org = at.point + lift;
+    path.org = at.point + offset;
     start.common = at.common;
     if (at.common < 0)
         start.common = static_cast<std::int32_t>(common_number<float>(at.number, path.active));
@@ -267,16 +268,16 @@ inline void mirror_rays(const FusedTile<F>& tile, PathState<F>& path, PathStart&
     if (!start.meets_own)
         return;
     path.org =
-        select(from_bits<float>(~hits.leaving & all_lanes<float>), path.org, at.point - lift);
+        select(from_bits<float>(~hits.leaving & all_lanes<float>), path.org, at.point - offset);
     const Vec3v<float> dir = path.dir;
     start.second = find_second(tile, hits, dir, path.active);
 }
 
-/// Turns the normals of a packet's hits where rays along `dir` come from inside.
+/// Corrects a packet's hits where rays along `dir` come from inside.
 template <abi::Features F>
 inline void turn_hits(LitHits& hits, const FusedTile<F>& tile, const Vec3v<float>& dir)
 {
-    // Of copies alone the address is taken: all else stays in registers.
+    // The address is taken of copies only, so that all other values stay in registers.
     const HitState at = hits.at;
     const Vec3v<float> way = dir;
     LitHits turned{.at = at,
@@ -296,7 +297,7 @@ inline void turn_hits(LitHits& hits, const FusedTile<F>& tile, const Vec3v<float
     hits.again |= turned.leaving;
 }
 
-/// Finds what the active rays of a packet hit.
+/// Finds the hits of the active rays of a packet.
 template <Generation G, abi::Features F>
 inline void find_hits(const FusedTile<F>& tile, const CommonLists& candidates,
                       const PathState<F>& path, PathStart& start)
@@ -305,9 +306,9 @@ inline void find_hits(const FusedTile<F>& tile, const CommonLists& candidates,
     CommonHit common;
     constexpr Origin origin = G == Generation::camera ? Origin::shared : Origin::any;
     const std::int32_t own = G == Generation::camera ? -1 : start.common;
-    if (path.is_plain && find_common_hit<Refine::place, origin>(common, tile.plan.common,
-                                                                candidates, rays_of<G>(tile, path),
-                                                                tile.eye, own, path.active)) {
+    if (path.is_plain && find_common_hit<Refine::place, origin>(
+                             common, tile.plan.common, candidates, rays_of<G>(tile, path),
+                             tile.camera_origin, own, path.active)) {
         hit.point = common.point;
         hit.outward = common.outward;
         hit.common = common.surface;
@@ -320,7 +321,7 @@ inline void find_hits(const FusedTile<F>& tile, const CommonLists& candidates,
     hit = found;
 }
 
-/// Adds what lights bring to a packet's hits, and puts mirrored rays in the place of its rays.
+/// Adds the lights at a packet's hits, and replaces its rays by reflected ones.
 template <Generation G, abi::Features F>
 inline void shade_hits(const FusedTile<F>& tile, PathState<F>& path, PathStart& start,
                        const LitHits& hits, const PlanMaterial& material, int depth)
@@ -331,7 +332,7 @@ inline void shade_hits(const FusedTile<F>& tile, PathState<F>& path, PathStart& 
         add_light(tile, light, hits, path, material, color);
     if (depth < scene.rules.max_depth) {
         add_hits<G>(path, color * material.packet.local, hits.at.lanes);
-        mirror_rays(tile, path, start, hits, material);
+        reflect_rays(tile, path, start, hits, material);
     } else {
         const Vec3v<float> share = material.packet.reflect + material.packet.transmit;
         add_hits<G>(path, madd<float>(share, broadcast(scene.rules.limit_color), color),
@@ -339,7 +340,7 @@ inline void shade_hits(const FusedTile<F>& tile, PathState<F>& path, PathStart& 
     }
 }
 
-/// Traces a generation of a packet, adds what it brings, and puts mirrored rays in its place.
+/// Traces one generation of a packet, adds its light, and replaces its rays by reflected ones.
 template <Generation G, abi::Features F>
 inline void trace_generation(const FusedTile<F>& tile, const CommonLists& candidates,
                              PathState<F>& path, PathStart& start, int depth)
@@ -359,7 +360,8 @@ inline void trace_generation(const FusedTile<F>& tile, const CommonLists& candid
         fetch_mixed(mixed, tile, copy);
         material = &mixed;
     }
-    // Of what faces the ray nothing is inside, nor turned.
+    // As long as all outward normals face the rays, no ray comes from inside and no normal is
+    // flipped.
     LitHits hits{.at = hit,
                  .normal = hit.outward,
                  .normal_dir = dot(hit.outward, path.dir),

@@ -2,16 +2,16 @@
 
 #include "kernels/fused/plan.hpp"
 
-// Makes the plan of a frame (plan.hpp). All bounds are computed in double, once.
+// Makes the plan of a frame (plan.hpp). All bounds are computed in double, once per frame.
 namespace packtrace::PACKTRACE_ISA {
 namespace {
 
-/// How much the direction of a shadow ray may differ from that to the hit.
+/// How far the direction of a shadow ray may differ from the direction to the hit.
 inline constexpr double clear_turn = 0x1p-9;
-/// The share of the size of its scene that a point has to be away from a point light for that.
+/// For that a point has to be further from a point light than this share of the scene's size.
 inline constexpr double clear_distance = 1.0 / 1024.0;
 
-/// What is in front of a plane through `point` with the unit normal `normal`, as seen from a light.
+/// Adds the plane through `point` with the unit normal `normal`, if the light is in front of it.
 inline void add_front_plane(ClearTests& tests, const double (&point)[3], const double (&normal)[3],
                             const abi::LightRecord<float>& light, double extent,
                             std::int32_t behind)
@@ -40,7 +40,8 @@ inline void add_front_plane(ClearTests& tests, const double (&point)[3], const d
     plane.behind = behind;
 }
 
-/// Planes that touch anchored spheres where these are nearest to a light, or to all that is near.
+/// Adds planes that touch the anchored spheres, at the point closest to a point light or else to
+/// the origins' centre.
 inline void add_anchored(ClearTests& tests, const abi::SceneView<float>& casters,
                          const abi::LightRecord<float>& light, const Origins& origins,
                          double extent)
@@ -85,8 +86,11 @@ inline void add_planes(ClearTests& tests, const abi::SceneView<float>& casters,
     }
 }
 
+/// Whether a ball is a sphere itself, or the bounding ball of another object.
+enum class BallOf { sphere, other };
+
 inline void add_across(ClearTests& tests, const RoundedBall& ball, const double (&light)[3],
-                       double extent, bool fills)
+                       double extent, BallOf of)
 {
     const double outer = clear_radius(ball, extent);
     AcrossSphere& sphere = tests.across.next();
@@ -96,8 +100,8 @@ inline void add_across(ClearTests& tests, const RoundedBall& ball, const double 
     for (int axis = 0; axis < 3; ++axis) {
         along += ball.center[axis] * light[axis];
         length2 += light[axis] * light[axis];
-        for (int of = 0; of < 2; ++of)
-            across[of] += ball.center[axis] * double{tests.axis[of][axis]};
+        for (int i = 0; i < 2; ++i)
+            across[i] += ball.center[axis] * double{tests.axis[i][axis]};
     }
     sphere.center[0] = static_cast<float>(across[0]);
     sphere.center[1] = static_cast<float>(across[1]);
@@ -107,13 +111,14 @@ inline void add_across(ClearTests& tests, const RoundedBall& ball, const double 
     const double before = along - outer * __builtin_sqrt(length2) * (1.0 + clear_slack);
     sphere.before = static_cast<float>(before - clear_slack * __builtin_fabs(before));
     const double inner = 2.0 * double{ball.radius} * (1.0 - clear_slack) - outer;
-    sphere.inner2 =
-        fills && inner > 0 ? static_cast<float>(inner * inner * (1.0 - clear_slack)) : -1.0f;
+    sphere.inner2 = of == BallOf::sphere && inner > 0
+                        ? static_cast<float>(inner * inner * (1.0 - clear_slack))
+                        : -1.0f;
     sphere.body = ball.body;
 }
 
 inline void add_cone(ClearTests& tests, const RoundedBall& ball, const float (&light)[3],
-                     double extent, bool fills)
+                     double extent, BallOf of)
 {
     ConeSphere& sphere = tests.cones.next();
     double distance2 = 0;
@@ -125,36 +130,36 @@ inline void add_cone(ClearTests& tests, const RoundedBall& ball, const float (&l
     }
     const double radius = clear_radius(ball, extent);
     const double outer = radius + clear_turn * (radius + __builtin_sqrt(distance2));
-    // The cosine's square is 1 - outer²/distance²; the product with the distance is compared.
+    // The squared cosine is 1 - outer²/distance². Its root times the distance is stored.
     const double edge2 = distance2 * (1.0 - clear_slack) - outer * outer;
     sphere.edge = edge2 > 0 ? static_cast<float>(__builtin_sqrt(edge2) * (1.0 - clear_slack))
                             : -__builtin_inff();
     sphere.outer2 = static_cast<float>(outer * outer * (1.0 + clear_slack));
     const double inner = 2.0 * double{ball.radius} * (1.0 - clear_slack) - outer;
     const double inner_edge2 = distance2 * (1.0 + clear_slack) - inner * inner;
-    sphere.inner_edge = fills && inner > 0 && edge2 > 0
+    sphere.inner_edge = of == BallOf::sphere && inner > 0 && edge2 > 0
                             ? above(__builtin_sqrt(inner_edge2) * (1.0 + clear_slack))
                             : __builtin_inff();
     sphere.body = ball.body;
 }
 
-/// Calls `add(ball, fills)` for the balls of what may be in a light's way; `fills` is true of
-/// spheres. What has no ball leaves the tests incomplete.
+/// Calls `add(ball, of)` for the balls of a light's possible occluders. An object without a ball
+/// makes the tests incomplete.
 template <class Add>
 inline void add_balls(ClearTests& tests, const abi::SceneView<float>& casters, const Add& add)
 {
     for (int i = 0; i < casters.spheres.count; ++i)
-        add(ball_of(casters.spheres, i), true);
+        add(ball_of(casters.spheres, i), BallOf::sphere);
     for_each_other(casters, [&](const auto& record) {
         const RoundedBall ball = ball_of(record);
         if (ball.radius < __builtin_inff())
-            add(ball, false);
+            add(ball, BallOf::other);
         else
             tests.complete = false;
     });
 }
 
-/// Two unit vectors across `v`.
+/// Two unit vectors perpendicular to `v` and to each other.
 inline void set_axes(float (&axis)[2][3], const double (&v)[3])
 {
     const int least = __builtin_fabs(v[0]) < __builtin_fabs(v[1])
@@ -199,13 +204,13 @@ inline void make_clear_tests(ClearTests& tests, const abi::SceneView<float>& sce
     add_anchored(tests, casters, light, origins, extent);
     add_planes(tests, casters, light, extent);
     if (light.kind == abi::LightKind::point)
-        return add_balls(tests, casters, [&](const RoundedBall& ball, bool fills) {
-            add_cone(tests, ball, light.vector, extent, fills);
+        return add_balls(tests, casters, [&](const RoundedBall& ball, BallOf of) {
+            add_cone(tests, ball, light.vector, extent, of);
         });
     const double direction[3] = {light.vector[0], light.vector[1], light.vector[2]};
     set_axes(tests.axis, direction);
-    add_balls(tests, casters, [&](const RoundedBall& ball, bool fills) {
-        add_across(tests, ball, direction, extent, fills);
+    add_balls(tests, casters, [&](const RoundedBall& ball, BallOf of) {
+        add_across(tests, ball, direction, extent, of);
     });
 }
 
@@ -217,11 +222,11 @@ inline void fill_materials(FramePlan<F>& plan, const abi::SceneView<float>& scen
         PlanMaterial& material = plan.materials[i];
         material.packet = fetch_materials(scene, vint<float>(i), all_lanes<float>);
         material.floor2 = shine_floor2(material.packet);
-        material.mirrors = any_channel(material.packet.reflect) != 0;
+        material.reflects = any_channel(material.packet.reflect) != 0;
     }
 }
 
-/// A ball around all points of a surface; its radius is infinite where there is none.
+/// A ball that contains all points of a surface; its radius is infinite if there is none.
 struct SurfaceBall {
     double center[3] = {};
     double radius = __builtin_inf();
@@ -267,7 +272,7 @@ inline bool is_in_front(const FrontPlane& plane, const SurfaceBall& ball)
     return level - ball.radius > double{plane.offset} + clear_slack * size;
 }
 
-/// Whether no way from a ball along a directional light comes near a sphere.
+/// Whether no segment from a ball towards a directional light comes close to a sphere.
 inline bool is_past(const ClearTests& tests, const AcrossSphere& sphere, const SurfaceBall& ball,
                     const float (&light)[3])
 {
@@ -290,11 +295,11 @@ inline bool is_past(const ClearTests& tests, const AcrossSphere& sphere, const S
                double{sphere.along} + 1e-5 * __builtin_fabs(along);
 }
 
-/// Whether no way from a ball to a point light comes near a sphere.
+/// Whether no segment from a ball to a point light comes close to a sphere.
 inline bool is_past(const ConeSphere& sphere, const SurfaceBall& ball, const float (&light)[3])
 {
-    // The nearest point to the sphere's centre of the segment between the balls' own centres; what
-    // the ball adds is at most its radius.
+    // The point of the segment between the light and the ball's centre that is closest to the
+    // sphere's centre. The other points of the ball are at most its radius closer.
     double along = 0;
     double length2 = 0;
     for (int axis = 0; axis < 3; ++axis) {
@@ -314,8 +319,8 @@ inline bool is_past(const ConeSphere& sphere, const SurfaceBall& ball, const flo
            ball.radius + __builtin_sqrt(double{sphere.outer2});
 }
 
-/// The tests that points of a surface need: not those of the object itself, nor those that none of
-/// them fails.
+/// Finds the tests that points of a surface need: not those of the object itself, nor those that no
+/// point of the surface can fail.
 inline void find_needed(ClearTests& tests, const abi::SceneView<float>& scene,
                         const abi::LightRecord<float>& light, std::int32_t surface)
 {
@@ -356,7 +361,7 @@ inline void fill_surfaces(FramePlan<F>& plan, const abi::SceneView<float>& scene
     });
 }
 
-/// Fills a plan whose arrays have room.
+/// Fills a plan whose arrays have memory.
 template <abi::Features F>
 inline void fill_plan(FramePlan<F>& plan, const abi::SceneView<float>& scene,
                       const abi::CameraView<float>& camera)

@@ -4,15 +4,19 @@
 #include "kernels/stream/camera_rays.hpp"
 #include "kernels/stream/probe.hpp"
 
-// Packets of paths, from the eye to the last mirror, and the memory of a thread for them.
+// Packets of paths, from the camera to the last mirror, and the memory of a thread for them.
 namespace packtrace::PACKTRACE_ISA {
 namespace {
 
-/// The share of a path's light: one number, or one a channel where any mirror is tinted.
+/// The weight of a path: one number, or one per channel if any mirror is tinted.
 template <bool Colored>
 struct PathWeight {
     vreal<float> one;
 
+    void set_whole()
+    {
+        one = vreal<float>(1.0f);
+    }
     [[nodiscard]] Vec3v<float> of(const Vec3v<float>& light) const
     {
         return scale<float>(one, light);
@@ -26,6 +30,11 @@ template <>
 struct PathWeight<true> {
     Vec3v<float> each;
 
+    void set_whole()
+    {
+        const vreal<float> one(1.0f);
+        each = {one, one, one};
+    }
     [[nodiscard]] Vec3v<float> of(const Vec3v<float>& light) const
     {
         return each * light;
@@ -36,20 +45,10 @@ struct PathWeight<true> {
     }
 };
 
-inline void set_whole(PathWeight<false>& weight)
-{
-    weight.one = vreal<float>(1.0f);
-}
-inline void set_whole(PathWeight<true>& weight)
-{
-    const vreal<float> one(1.0f);
-    weight.each = {one, one, one};
-}
+/// Whether the rays of a generation come from the camera.
+enum class Generation { camera, reflected };
 
-/// Whether rays of a generation come from the eye.
-enum class Generation { camera, mirrored };
-
-/// Rays of a packet of paths, and what they bring to their pixels so far.
+/// The rays of a packet of paths, and the colour of their pixels so far.
 template <abi::Features F>
 struct PathState {
     Vec3v<float> org;
@@ -57,26 +56,26 @@ struct PathState {
     vreal<float> dir2;
     PathWeight<F.colored> weight;
     Vec3v<float> color;
-    std::uint32_t active;  ///< lanes whose path goes on
-    bool is_far;           ///< some start beyond the plan's origins
-    bool is_plain;         ///< find_common_hit() may be asked
+    std::uint32_t active;  ///< lanes whose path continues
+    bool is_far;           ///< some start outside the plan's origins
+    bool is_plain;         ///< find_common_hit() can be used
 };
 
-/// Hits of a packet of paths.
+/// The hits of a packet of paths.
 struct HitState {
     Vec3v<float> point;
     Vec3v<float> outward;  ///< unit normal
-    vint<float> number;    ///< of the surfaces; set where they differ
-    std::int32_t common;   ///< the surface that all are on; -1 for several
+    vint<float> number;    ///< surface numbers; set only if they differ
+    std::int32_t common;   ///< the surface that all hits are on; -1 if they differ
     std::uint32_t lanes;
 };
 
-/// What the rays of a packet start on; the hits of a generation take the place of those before.
+/// Where the rays of a packet start. The hits of a generation replace those of the previous one.
 struct PathStart {
     HitState at;
-    std::int32_t common;      ///< the surface that all rays which go on start on; -1 for several
-    bool meets_own;           ///< some may meet the same body again, as `second` says
-    SecondHit<float> second;  ///< set where meets_own
+    std::int32_t common;      ///< the surface that all active rays start on; -1 if they differ
+    bool meets_own;           ///< some may hit the same object again, at `second`
+    SecondHit<float> second;  ///< only set if meets_own
 };
 
 inline vint<float> numbers_of(const HitState& hit)
@@ -88,13 +87,15 @@ inline vint<float> numbers_of(const HitState& hit)
 template <abi::Features F>
 struct FusedMemory {
     float* color = nullptr;
-    CommonLists candidates;                       ///< what the eye may see through the tile
-    FilteredObjects<true> visible;                ///< likewise, where tests are dear
-    FilteredObjects<false> from_far;              ///< for mirrored rays beyond the plan's origins
-    LightObjects<F, float>* occluders = nullptr;  ///< likewise, by light that sends no rays
+    CommonLists candidates;  ///< objects visible through the tile
+    FilteredObjects<Origin::shared>
+        visible;                            ///< the same with error bounds, if tests are expensive
+    FilteredObjects<Origin::any> from_far;  ///< for reflected rays outside the plan's origins
+    LightObjects<F, float>* occluders = nullptr;  ///< for hits outside the plan's origins, by
+                                                  ///< light; only of lights that send no rays
     std::size_t bytes = 0;
 
-    /// With no `scratch`, only `bytes` is of use.
+    /// With a null `scratch`, only `bytes` is valid.
     FusedMemory(void* scratch, const abi::SceneView<float>& scene)
     {
         Arena arena(scratch);
@@ -115,21 +116,21 @@ struct FusedMemory {
     }
 };
 
-/// What stays the same while a tile is traced.
+/// The state shared by the packets of a tile.
 template <abi::Features F>
 struct FusedTile {
     const abi::SceneView<float>& scene;
     const FramePlan<F>& plan;
     FusedMemory<F>& memory;
     abi::RayCounts& counts;
-    float eye[3];
-    float eye_t_min;
+    float camera_origin[3];
+    float camera_t_min;
 };
 
 template <Generation G, abi::Features F>
 inline float least_t(const FusedTile<F>& tile)
 {
-    return G == Generation::camera ? tile.eye_t_min : tile.scene.rules.secondary_t_min;
+    return G == Generation::camera ? tile.camera_t_min : tile.scene.rules.secondary_t_min;
 }
 
 template <Generation G, abi::Features F>
@@ -137,7 +138,7 @@ inline RayPacket<float> rays_of(const FusedTile<F>& tile, const PathState<F>& pa
 {
     const vreal<float> t_min(least_t<G>(tile));
     if constexpr (G == Generation::camera)
-        return {broadcast(tile.eye), path.dir, path.dir2, t_min};
+        return {broadcast(tile.camera_origin), path.dir, path.dir2, t_min};
     else
         return {path.org, path.dir, path.dir2, t_min};
 }
@@ -150,7 +151,7 @@ inline StartPacket<float> start_of(const PathStart& start)
     return {start.at.point, number, no_second_hit<float>()};
 }
 
-/// The surface of each ray's start, which its search passes over, for rays that count alone.
+/// The surfaces that rays start on, which their search skips. Only active lanes count.
 struct ActiveOwn {
     const vint<float>& surface;
     std::int32_t common;
@@ -167,7 +168,7 @@ struct ActiveOwn {
     }
 };
 
-/// The ball around the places of some lanes.
+/// The ball around the points of some lanes.
 inline Origins origins_of_lanes(const Vec3v<float>& place, std::uint32_t active)
 {
     const LaneVectors<float> by_lane(place);
@@ -182,7 +183,7 @@ inline Origins origins_of_lanes(const Vec3v<float>& place, std::uint32_t active)
             high[axis] = max(high[axis], x);
         }
     }
-    // Shadow rays start off the places.
+    // It also contains origins of shadow rays, which are offset from the points.
     return origins_in(low, high);
 }
 

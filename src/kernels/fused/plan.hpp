@@ -6,62 +6,63 @@
 
 #include <limits>
 
-// What the tiles of a frame share that is traced in registers (fused_tile.hpp): the objects with
-// their error bounds, for camera rays, for rays from around the bounded objects, and for shadow
-// rays. It is made once a frame; tiles only read it.
+// The data shared by the tiles of a frame that is traced in registers (fused_tile.hpp): the objects
+// with their error bounds for camera rays, for rays from around the bounded objects, and for shadow
+// rays. It is made once per frame, and tiles only read it.
 namespace packtrace::PACKTRACE_ISA {
 namespace {
 
-/// A plane that a light is in front of, and an object behind: the way from the light to a point
-/// that is in front of it by more than `offset` is clear of the object.
+/// A plane that has a light in front of it and an object behind it. The segment from the light to a
+/// point with normal·point > offset does not hit the object.
 struct FrontPlane {
     float normal[3];
     float offset;
-    std::int32_t behind;  ///< the object's surface
+    std::int32_t behind;  ///< surface of the object
 };
 
-/// A sphere, or a ball around an object, that a directional light misses where its line through a
-/// point passes further off than the root of `outer2`, in the plane across the light.
+/// A sphere, or a bounding ball of another object, for a directional light. In the plane
+/// perpendicular to the light, the line from a point to the light misses it if it passes further
+/// from `center` than the root of `outer2`.
 struct AcrossSphere {
     float center[2];  ///< in that plane
     float outer2;
-    float inner2;  ///< lines that pass nearer cross it; negative for a ball around another object
-    float along;   ///< points further on than this are past the sphere
-    float before;  ///< points less far on have it all before them
+    float inner2;  ///< lines that pass closer hit the sphere; negative for a bounding ball
+    float along;   ///< points beyond this along the light are past the sphere
+    float before;  ///< points before this along the light have the whole sphere ahead
     Body body;
 };
 
-/// The same that the way from a point light misses whose cosine with the way to the sphere, `to`,
-/// is less than `edge` over its length.
+/// The same for a point light. The segment from the light to a point misses the ball if the cosine
+/// between it and `to` is less than `edge` over the length of `to`.
 struct ConeSphere {
-    float to[3];  ///< from the light to the centre
-    float edge;   ///< -infinite for a light that is not outside
-    float
-        inner_edge;  ///< what is more crosses the sphere; infinite for a ball around another object
+    float to[3];       ///< from the light to the centre
+    float edge;        ///< -infinite if the light is not outside
+    float inner_edge;  ///< above this the segment hits the sphere; infinite for a bounding ball
     float center[3];
     float outer2;
     Body body;
 };
 
-/// Which of a light's tests points on one surface need: the others can't fail for any point of it.
+/// The tests of a light that points on one surface need: no point of the surface can fail the
+/// others.
 struct NeededTests {
     BorrowedList<const FrontPlane*> planes;
     BorrowedList<const AcrossSphere*> across;
     BorrowedList<const ConeSphere*> cones;
 };
 
-/// What can be told of shadow rays without an interval (clear_way.hpp), of points in the plan's
-/// `origins`.
+/// The quick tests for shadow rays (clear_way.hpp), for points within the plan's `origins`.
 struct ClearTests {
     BorrowedList<FrontPlane> planes;
-    BorrowedList<AcrossSphere> across;  ///< of a directional light
-    BorrowedList<ConeSphere> cones;     ///< of a point light
-    float axis[2][3] = {};              ///< of the plane across a directional light
-    float length2 = 0;                  ///< of its vector, and the inverse root
+    BorrowedList<AcrossSphere> across;  ///< for a directional light
+    BorrowedList<ConeSphere> cones;     ///< for a point light
+    float axis[2][3] = {};              ///< axes of the plane perpendicular to a directional light
+    float length2 = 0;  ///< squared length of its vector, and below the inverse length
     float inverse_length = 0;
-    float least_distance2 = 0;  ///< points nearer to a point light than its root are not told of
+    /// Squared distance; points closer to a point light are not decided.
+    float least_distance2 = 0;
     NeededTests* needed = nullptr;  ///< by surface; [-1] for points on any
-    bool complete = false;          ///< these tests know all objects that may be in the way
+    bool complete = false;          ///< the tests include all possible occluders
 };
 
 struct PlanLight {
@@ -73,16 +74,17 @@ struct PlanLight {
 /// A material in all lanes.
 struct PlanMaterial {
     MaterialPacket<float> packet;
-    vreal<float> floor2;  ///< squared cosine below which nothing shines, less what rounding may do
-    bool mirrors;
+    /// Squared cosine below which there is no highlight, reduced by rounding errors.
+    vreal<float> floor2;
+    bool reflects;
 };
 
 struct PlanSurface {
-    const PlanMaterial* material = nullptr;  ///< null where hits have more than one
-    bool met_again = false;                  ///< rays that leave it outside may meet its body again
+    const PlanMaterial* material = nullptr;  ///< null if hits may have several
+    bool met_again = false;  ///< rays that leave it on the outer side may hit its object again
 };
 
-/// PlanMaterial::floor2: rounding can't make a shine of a cosine that is below its root.
+/// PlanMaterial::floor2: rounding cannot give a highlight to a cosine below its root.
 inline vreal<float> shine_floor2(const MaterialPacket<float>& material)
 {
     const vreal<float> floor = material.highlight_floor;
@@ -93,17 +95,18 @@ inline vreal<float> shine_floor2(const MaterialPacket<float>& material)
 /// `F` is a feature set of exact mode without glass.
 template <abi::Features F>
 struct FramePlan {
-    FilteredObjects<true> from_camera;
-    FilteredObjects<false> from_near;  ///< from `origins`
+    FilteredObjects<Origin::shared> from_camera;
+    FilteredObjects<Origin::any> from_near;  ///< for rays from `origins`
     Origins origins;
-    LightObjects<F, float>* occluders = nullptr;  ///< by light; if it sends no rays from `origins`
-    BorrowedList<PlanLight> lights;               ///< by number
-    CommonObjects common;                         ///< likewise from `origins`
-    PlanMaterial* materials = nullptr;            ///< by number
-    PlanSurface* surfaces = nullptr;              ///< by number; [-1] for hits on several
+    /// By light; for a light that sends no rays, for rays from `origins`.
+    LightObjects<F, float>* occluders = nullptr;
+    BorrowedList<PlanLight> lights;     ///< by light number
+    CommonObjects common;               ///< for rays from `origins`
+    PlanMaterial* materials = nullptr;  ///< by material number
+    PlanSurface* surfaces = nullptr;    ///< by number; [-1] for hits on several surfaces
     std::size_t bytes = 0;
 
-    /// With no `memory`, only `bytes` is of use.
+    /// With a null `memory`, only `bytes` is valid.
     FramePlan(void* memory, const abi::SceneView<float>& scene)
     {
         const abi::SceneView<float>& casters = casters_of(scene);
@@ -155,7 +158,7 @@ private:
     }
 
 public:
-    /// Calls `visit(surface)` for each.
+    /// Calls `visit(surface)` for each surface.
     template <class Visit>
     static void for_each_surface(const abi::SceneView<float>& scene, const Visit& visit)
     {
@@ -171,7 +174,7 @@ public:
     }
 
 private:
-    /// One more than the largest number.
+    /// One more than the largest surface number.
     static std::size_t surface_count(const abi::SceneView<float>& scene)
     {
         std::int32_t most = -1;
@@ -181,7 +184,7 @@ private:
     }
 
 public:
-    /// One more than the largest number of a material of these surfaces.
+    /// One more than the largest material number of these surfaces.
     static std::size_t material_count(const abi::SceneView<float>& scene)
     {
         std::int32_t count = 0;

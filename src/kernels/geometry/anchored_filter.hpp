@@ -3,22 +3,23 @@
 #include "kernels/geometry/anchored_sphere.hpp"
 #include "kernels/geometry/filter.hpp"
 
-// Certain tests of anchored spheres in single precision. Each group of rays has an anchor of its
-// own, the surface point nearest its origins, so that the form's terms are as small as they can be.
+// Tests of anchored spheres with error bounds, in single precision. Each set of rays gets its own
+// anchor, the surface point nearest to the rays' origins, so that the terms of the equation are as
+// small as possible.
 namespace packtrace::PACKTRACE_ISA {
 namespace {
 
-/// An anchored sphere for the origins of one group. With p = o - anchor, g = n + k p:
-/// F(t) = k a t² + 2 (g·d) t + F(0), F(0) = (g + n)·p + k0.
+/// An anchored sphere for a set of ray origins. With p = o - anchor and g = n + k p: F(t) = k a t²
+/// + 2 (g·d) t + F(0), F(0) = (g + n)·p + k0.
 struct AnchoredFilter {
     float anchor[3];
     float normal[3];
     float curvature;
     float offset;
-    // Of a shared origin, rounded once from double.
+    // For a shared origin, rounded once from double.
     float gradient[3];
     float value;
-    // Errors at most: of b = g·d per |d|, of F(0), and of the discriminant per d·d.
+    // Upper bounds of errors: of b = g·d per |d|, of F(0), and of the discriminant per d·d.
     float slope_error;
     float value_error;
     float discriminant_error;
@@ -35,8 +36,8 @@ inline float above(double x)
     return static_cast<float>(x) * (1.0f + 4.0f * roundoff);
 }
 
-/// Bounds after FILTER's derivation in docs/numerics_derivations.md; `distance` is the largest |p|.
-inline void set_anchored_errors(AnchoredFilter& filter, double distance, bool shared)
+/// Error bounds as derived in docs/numerics_derivations.md; `distance` is the largest |p|.
+inline void set_anchored_errors(AnchoredFilter& filter, double distance, Origin origin)
 {
     constexpr double u = roundoff * inflation;
     const double fused = product_roundings;
@@ -44,12 +45,13 @@ inline void set_anchored_errors(AnchoredFilter& filter, double distance, bool sh
     const double value = filter.value < 0 ? -double{filter.value} : double{filter.value};
     const double offset = filter.offset < 0 ? -double{filter.offset} : double{filter.offset};
     const double size = 1.0 + k * distance;
-    const double gradient = (shared ? 1.0 : 3.2) * fused * u * size;
-    const double constant = shared ? 1.1 * u * value + 1e-13 * (size + 1.0) * distance + 1e-15 / k
-                                   : fused * 10.7 * u * (size + 1.0) * distance + 2.1 * u * offset;
+    const double gradient = (origin == Origin::shared ? 1.0 : 3.2) * fused * u * size;
+    const double constant = origin == Origin::shared
+                                ? 1.1 * u * value + 1e-13 * (size + 1.0) * distance + 1e-15 / k
+                                : fused * 10.7 * u * (size + 1.0) * distance + 2.1 * u * offset;
     const double slope = gradient + fused * 3.2 * u * size;
-    // Of a group with more than one origin, F(0) is anything up to the distance.
-    const double most_value = shared ? value : (size + 1.0) * distance + offset;
+    // With more than one origin, F(0) may be anything up to this.
+    const double most_value = origin == Origin::shared ? value : (size + 1.0) * distance + offset;
     filter.slope_error = above(slope);
     filter.value_error = above(constant);
     filter.discriminant_error =
@@ -57,7 +59,7 @@ inline void set_anchored_errors(AnchoredFilter& filter, double distance, bool sh
               fused * 2.0 * u * size * size);
 }
 
-template <bool Shared>
+template <Origin O>
 [[gnu::noinline]] AnchoredFilter anchored_filter(const abi::AnchoredSphere<double>& sphere,
                                                  const Origins& origins)
 {
@@ -92,11 +94,11 @@ template <bool Shared>
     filter.offset = static_cast<float>(k0);
     filter.value = static_cast<float>(value);
     filter.surface = sphere.surface;
-    set_anchored_errors(filter, length_of(p) * 1.000001 + double{origins.radius}, Shared);
+    set_anchored_errors(filter, length_of(p) * 1.000001 + double{origins.radius}, O);
     return filter;
 }
 
-/// The form along the rays.
+/// F along the rays: F(t) = bend t² + 2 b t + value.
 struct AnchoredLine {
     vreal<float> b;
     vreal<float> value;
@@ -107,13 +109,13 @@ struct AnchoredLine {
     vreal<float> value_error;
 };
 
-template <bool Shared>
+template <Origin O>
 inline AnchoredLine line_of(const AnchoredFilter& filter, const RayPacket<float>& rays,
                             const RayScale& scale)
 {
     AnchoredLine line;
     const vreal<float> curvature(filter.curvature);
-    if constexpr (Shared) {
+    if constexpr (O == Origin::shared) {
         line.b = dot(broadcast(filter.gradient), rays.dir);
         line.value = vreal<float>(filter.value);
     } else {
@@ -131,8 +133,8 @@ inline AnchoredLine line_of(const AnchoredFilter& filter, const RayPacket<float>
     return line;
 }
 
-/// Lanes that start outside, and go away from the surface or still towards it at t_end, outside
-/// there, too: F is convex.
+/// Lanes whose rays start outside and stay outside up to t_end: they either leave the surface, or
+/// still approach it at t_end and are outside there. This suffices because F is convex.
 inline vmask<float> stays_above(const AnchoredLine& line, const vreal<float>& t_end)
 {
     const vreal<float> last_slope = madd(line.bend, t_end, line.b);
@@ -144,14 +146,30 @@ inline vmask<float> stays_above(const AnchoredLine& line, const vreal<float>& t_
     return outside & ((line.b > line.slope_error) | (towards & (line.value + climb > error)));
 }
 
-/// Where a line crosses an anchored sphere for sure: its one root ahead from inside, the first of
-/// two from outside.
+/// The first hit of a line with an anchored sphere: from inside its only root ahead, from outside
+/// the first of two.
 struct AnchoredHit {
     vreal<float> t;
     vreal<float> error;
-    vmask<float> sure;     ///< lanes with a first root ahead
-    vmask<float> nothing;  ///< lanes with none
+    vmask<float> sure;     ///< lanes that certainly have a first root ahead
+    vmask<float> nothing;  ///< lanes that certainly have none
 };
+
+/// The error of a root, as a share of t, besides that of its terms.
+inline constexpr float error_per_t = roundoffs(20.0f);
+
+/// Replaces the hits of rays from inside against the gradient, `by_sum`, by the other root.
+inline void set_other_root(AnchoredHit& hit, const AnchoredLine& line, vmask<float> by_sum,
+                           const vreal<float>& sum, const vreal<float>& sum_error)
+{
+    const vreal<float> inverse_bend = vreal<float>(1.0f) / line.bend;
+    const vreal<float> other = sum * inverse_bend;
+    hit.t = select(by_sum, other, hit.t);
+    hit.error = select(
+        by_sum,
+        madd(sum_error, inverse_bend * vreal<float>(1.5f), other * vreal<float>(error_per_t)),
+        hit.error);
+}
 
 inline AnchoredHit first_root(const AnchoredLine& line)
 {
@@ -175,30 +193,24 @@ inline AnchoredHit first_root(const AnchoredLine& line)
     const vreal<float> sum = root + abs(line.b);
     const vreal<float> sum_error =
         madd(vreal<float>(0.6f) * inverse_root, line.discriminant_error, line.slope_error);
-    const vreal<float> per_t(roundoffs(20.0f));
-    // From outside, or from inside along the gradient: F(0) over what does not cancel.
+    // For rays from outside, and for rays from inside along the gradient: F(0) divided by a sum
+    // that does not cancel.
     const vmask<float> by_sum = hit.sure & inside & (line.b < zero);
     const vreal<float> inverse = vreal<float>(1.0f) / sum;
     hit.t = abs(line.value) * inverse;
-    hit.error =
-        madd(madd(hit.t, sum_error, line.value_error), inverse * vreal<float>(1.5f), hit.t * per_t);
-    if (none(by_sum))
-        return hit;
-    // From inside against it the other root.
-    const vreal<float> inverse_bend = vreal<float>(1.0f) / line.bend;
-    const vreal<float> other = sum * inverse_bend;
-    hit.t = select(by_sum, other, hit.t);
-    hit.error = select(by_sum, madd(sum_error, inverse_bend * vreal<float>(1.5f), other * per_t),
-                       hit.error);
+    hit.error = madd(madd(hit.t, sum_error, line.value_error), inverse * vreal<float>(1.5f),
+                     hit.t * vreal<float>(error_per_t));
+    if (any(by_sum))
+        set_other_root(hit, line, by_sum, sum, sum_error);
     return hit;
 }
 
-template <bool Shared, class Own>
+template <Origin O, class Own>
 inline void keep_certain(HitPacket<float>& hit, const AnchoredFilter& filter,
                          const RayPacket<float>& rays, const RayScale& scale, const Own& own)
 {
     const std::uint32_t not_own = own.template lanes_on_others<float>(filter.surface);
-    const AnchoredHit at = first_root(line_of<Shared>(filter, rays, scale));
+    const AnchoredHit at = first_root(line_of<O>(filter, rays, scale));
     const std::uint32_t open = ~bits(at.nothing) & not_own;
     if (open == 0)
         return;
@@ -212,11 +224,11 @@ inline void keep_certain(HitPacket<float>& hit, const AnchoredFilter& filter,
                    select(at.sure, low, vreal<float>(-__builtin_inff())), bits(at.sure));
 }
 
-template <bool Shared, class Own>
+template <Origin O, class Own>
 inline Occlusion occludes(const AnchoredFilter& filter, const RayPacket<float>& rays,
                           const RayScale& scale, const vreal<float>& t_end, const Own&)
 {
-    const AnchoredLine line = line_of<Shared>(filter, rays, scale);
+    const AnchoredLine line = line_of<O>(filter, rays, scale);
     const vmask<float> above = stays_above(line, t_end);
     if (bits(above) == all_lanes<float>)
         return {};
@@ -226,7 +238,7 @@ inline Occlusion occludes(const AnchoredFilter& filter, const RayPacket<float>& 
         return {};
     const vreal<float> low = at.t - at.error;
     const vreal<float> high = at.t + at.error;
-    // What comes first beyond t_min can be told only where the first root does.
+    // Whether the first hit lies in the ray interval is certain only if the first root is.
     const vmask<float> first = at.sure & (low > rays.t_min);
     const std::uint32_t blocked = open & bits(first & (high < t_end));
     const std::uint32_t behind = bits(first & (low > t_end));
@@ -236,15 +248,15 @@ inline Occlusion occludes(const AnchoredFilter& filter, const RayPacket<float>& 
     return {blocked, unsure};
 }
 
-template <bool Shared>
+template <Origin O>
 inline AnchoredFilter certain_form(const abi::AnchoredSphere<float>&,
                                    const abi::AnchoredSphere<double>& wide, const Origins& origins)
 {
-    return anchored_filter<Shared>(wide, origins);
+    return anchored_filter<O>(wide, origins);
 }
 
-/// Whether no ray of a cone reaches an anchored sphere: all stay in front of a plane that touches
-/// it, or, from one point, start outside and go the way of its outward gradient.
+/// Whether no ray of a cone hits an anchored sphere. Either all rays stay in front of a plane that
+/// touches it, or they start from one point outside and run along its outward gradient.
 inline bool leaves_behind(const Cone<float>& cone, const AnchoredFilter& sphere)
 {
     const float inwards[3] = {-sphere.gradient[0], -sphere.gradient[1], -sphere.gradient[2]};
@@ -252,7 +264,7 @@ inline bool leaves_behind(const Cone<float>& cone, const AnchoredFilter& sphere)
            (cone.radius == 0 && sphere.value > sphere.value_error && runs_against(cone, inwards));
 }
 
-/// The kind (kinds.hpp).
+/// The kind, see kinds.hpp.
 struct AnchoredSphere : KindOf<abi::Primitive::anchored_sphere, abi::SurfaceKind::anchored_sphere> {
     template <class Real>
     using FromPoint = ObjectArray<SharedOriginAnchored<Real>>;

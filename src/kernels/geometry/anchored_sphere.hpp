@@ -8,21 +8,21 @@
 #include "kernels/geometry/object_list.hpp"
 #include "kernels/geometry/one_surface.hpp"
 
-// Spheres seen from near their surface: the test, for rays from one point, too, and a hit's place.
+// Anchored spheres (abi::AnchoredSphere): the test, also for rays from one point, and the point of
+// a hit.
 namespace packtrace::PACKTRACE_ISA {
 namespace {
 
-/// The form of an anchored sphere or plane (docs/numerics_derivations.md) at a place; what their
-/// quadratic needs of a ray's origin alone.
+/// The equation of an anchored sphere or plane (docs/numerics_derivations.md) at a point: the part
+/// of the quadratic that depends only on the ray's origin.
 template <class Real>
 struct AnchoredOrigin {
-    Vec3v<Real> g;  ///< half the gradient
+    Vec3v<Real> g;  ///< half the gradient of F
     vreal<Real> constant;
 };
 
-/// With p the place relative to the anchor, g = n + k p is half the gradient there and
-/// (g + n)·p + k0 the form's value: no term is of the size of the radius, which a ground
-/// sphere's would drown in.
+/// With p the point relative to the anchor, g = n + k p is half the gradient of F and (g + n)·p +
+/// k0 its value. No term is as large as the radius, so the digits of a ground sphere are kept.
 template <class Real>
 inline AnchoredOrigin<Real> anchored_origin(const Real (&anchor)[3], const Real (&unit_normal)[3],
                                             Real curvature, Real offset, const Vec3v<Real>& place)
@@ -41,8 +41,8 @@ inline AnchoredOrigin<Real> anchored_origin(const abi::AnchoredSphere<Real>& sph
                                  place);
 }
 
-/// The ray against a sphere given by a surface point and its curvature (abi::AnchoredSphere):
-/// F(t) = k a t² + 2 (g·d) t + F(0). `curved` is k F(0).
+/// The quadratic of a ray and an anchored sphere: F(t) = k a t² + 2 (g·d) t + F(0). `curved` is k
+/// F(0).
 template <class Real>
 inline Quadratic<Real> anchored_quadratic(const AnchoredOrigin<Real>& origin,
                                           const vreal<Real>& curvature, const vreal<Real>& curved,
@@ -53,7 +53,7 @@ inline Quadratic<Real> anchored_quadratic(const AnchoredOrigin<Real>& origin,
     q.b = dot(origin.g, rays.dir);
     q.c = origin.constant;
     q.discriminant = msub(q.b, q.b, curved * rays.dir2);
-    // From afar both terms are large; as |g|² - k F(0) = 1, their difference is a - |g × d|² too.
+    // From afar both terms are large. As |g|² - k F(0) = 1, their difference is also a - |g × d|².
     const auto far = dot(origin.g, origin.g) > vreal<Real>(Real(4));
     if (none(far))
         return q;
@@ -71,7 +71,7 @@ inline Quadratic<Real> quadratic_of(const abi::AnchoredSphere<Real>& sphere,
     return anchored_quadratic<Real>(origin, curvature, curvature * origin.constant, rays);
 }
 
-/// An anchored sphere seen from an origin that all rays share.
+/// An anchored sphere for rays that share their origin.
 template <class Real>
 struct SharedOriginAnchored {
     Real g[3];
@@ -102,8 +102,8 @@ inline Quadratic<Real> quadratic_of(const SharedOriginAnchored<Real>& sphere,
                                     rays);
 }
 
-/// Whether rays of `cone` leave a convex surface behind them: they start outside and go the
-/// way of its outward gradient.
+/// Whether all rays of `cone` leave a convex surface behind: they start outside and run along its
+/// outward gradient.
 template <class Real>
 inline bool leaves_behind(const Cone<Real>& cone, const SharedOriginAnchored<Real>& sphere)
 {
@@ -111,7 +111,7 @@ inline bool leaves_behind(const Cone<Real>& cone, const SharedOriginAnchored<Rea
     return sphere.constant > 0 && runs_against(cone, inwards);
 }
 
-/// Of length 1 on the surface.
+/// The outward normal, of length 1 for points on the surface.
 template <class Real>
 inline Vec3v<Real> normal_at(const abi::AnchoredSphere<double>& sphere, const Vec3v<Real>& point)
 {
@@ -142,7 +142,7 @@ inline RefinedHalf refine(const abi::AnchoredSphere<double>& sphere, unsigned,
     RefinedHalf hit;
     hit.t = first_root(quadratic_of(sphere, rays), rays.t_min);
     hit.point = point_at(rays, hit.t);
-    // As of a sphere that is not anchored.
+    // The same normal as for a sphere that is not anchored.
     hit.normal = unit_normal<double>(sphere, 0, hit.point, rays.dir);
     return hit;
 }
@@ -157,8 +157,8 @@ inline HitAgain hit_again(const abi::AnchoredSphere<double>&, unsigned)
     return HitAgain::from_inside;
 }
 
-/// Where rays from points of the surface meet it again beyond t_min. `outside` are the lanes that
-/// leave it on the outer side.
+/// Where rays from points on the surface hit it again beyond t_min. `outside` are the lanes that
+/// leave on the outer side.
 inline OwnCrossing second_crossing(const abi::AnchoredSphere<double>& sphere, unsigned,
                                    const Vec3v<double>& point, const Vec3v<double>& dir,
                                    const vreal<double>& t_min, vmask<double> outside)

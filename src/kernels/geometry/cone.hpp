@@ -3,8 +3,8 @@
 #include "kernels/geometry/packet.hpp"
 #include "kernels/simd/vfloat8.hpp"
 
-// A bound of many rays: a cone of directions around an axis, started anywhere in a ball. It
-// tells which objects none of the rays can reach.
+// A bound of many rays: their directions lie in a cone around an axis, their origins in a ball. It
+// tells which objects none of the rays can hit.
 namespace packtrace::PACKTRACE_ISA {
 namespace {
 
@@ -15,8 +15,8 @@ struct Cone {
     Real axis[3] = {};  ///< unit to rounding
     Real sine = 0;      ///< of the cone's half angle, which is below a right angle
     Real cosine = 1;
-    Real reach = 0;        ///< no ray goes further from the base; may be infinite
-    bool bounded = false;  ///< false: the rays go everywhere, nothing can be left out
+    Real reach = 0;        ///< all rays end within this distance of the base; may be infinite
+    bool bounded = false;  ///< false: directions are not bounded, and no object can be skipped
 };
 
 template <class Real>
@@ -31,17 +31,19 @@ inline Real magnitude(Real x)
     return x < 0 ? -x : x;
 }
 
-/// Share of a length by which a bound may be wrong through rounding; more than three times what
-/// the operations below and a ray's own test can lose (docs/numerics_derivations.md has the proof),
-/// so that a sphere is left out only when the exact and the rounded test of every ray say miss.
+/// The share of a length by which a bound may be wrong through rounding. It is more than three
+/// times what the operations below and a ray's own test can lose (proof in
+/// docs/numerics_derivations.md). So a sphere is skipped only if both the exact and the rounded
+/// test of every ray miss it.
 template <class Real>
 inline constexpr Real cone_slack = sizeof(Real) == 4 ? Real(1e-5) : Real(1e-13);
 
-/// Beyond this a cone's reach is no length.
+/// A larger reach counts as infinite.
 template <class Real>
 inline constexpr Real largest_reach = Real(1e18);
 
-/// Lanes whose sphere, `v` from the cone's base to its centre, may be met by a ray.
+/// Lanes whose sphere may be hit by a ray of the cone. `v` leads from the cone's base to the
+/// sphere's centre.
 template <class Real>
 inline vmask<Real> may_meet(const Cone<Real>& cone, const Vec3v<Real>& v, const vreal<Real>& radius)
 {
@@ -59,8 +61,8 @@ inline vmask<Real> may_meet(const Cone<Real>& cone, const Vec3v<Real>& v, const 
            (distance <= (vreal<Real>(cone.reach) + size));
 }
 
-/// Whether every ray runs against `direction` or across it, by more than rounding can turn:
-/// the cone is further than a right angle from it.
+/// Whether all directions are more than a right angle away from `direction`, by more than rounding
+/// errors.
 template <class Real>
 inline bool runs_against(const Cone<Real>& cone, const Real (&direction)[3])
 {
@@ -79,7 +81,7 @@ struct Ball {
     Real radius;
 };
 
-/// The ball that holds the ends of a cone's rays, which all have one (segment_cone()).
+/// A ball that contains the ends of the rays of a cone made by segment_cone().
 template <class Real>
 inline Ball<Real> far_end(const Cone<Real>& cone)
 {
@@ -91,8 +93,8 @@ inline Ball<Real> far_end(const Cone<Real>& cone)
     return ball;
 }
 
-/// Whether a ball is wholly in front of a plane with a unit normal, by more than rounding can move
-/// either.
+/// Whether a ball is completely in front of a plane with a unit normal, by more than rounding
+/// errors.
 template <class Real>
 inline bool is_in_front(const Ball<Real>& ball, const Real (&point)[3], const Real (&normal)[3])
 {
@@ -105,8 +107,8 @@ inline bool is_in_front(const Ball<Real>& ball, const Real (&point)[3], const Re
     return height > ball.radius + cone_slack<Real> * size;
 }
 
-/// Whether every ray of a cone stays in front of a plane: it starts there, and goes away from the
-/// plane or ends before it.
+/// Whether every ray of a cone stays in front of a plane: it starts there, and either runs away
+/// from the plane or ends before it.
 template <class Real>
 inline bool stays_in_front(const Cone<Real>& cone, const Real (&point)[3], const Real (&normal)[3])
 {
@@ -119,7 +121,8 @@ inline bool stays_in_front(const Cone<Real>& cone, const Real (&point)[3], const
                                            is_in_front(far_end(cone), point, normal));
 }
 
-// Bounds of a stream's points, and the cones of shadow rays towards or along them.
+// Bounding boxes of points, and the cones of shadow rays from a light to them, or from them along a
+// direction.
 
 template <class Real>
 struct Box {
@@ -127,7 +130,7 @@ struct Box {
     Real high[3];
 };
 
-/// The most of a packet's lanes.
+/// The largest lane of a packet.
 template <class Real>
 inline Real largest_lane(batch<Real> x)
 {
@@ -146,7 +149,7 @@ inline Real largest_lane(batch<Real> x)
     }
 }
 
-/// The least of the lanes of one packet and the most of another's.
+/// The smallest lane of one packet and the largest lane of another.
 template <class Real>
 inline void extent_of_lanes(batch<Real> smallest, batch<Real> largest, Real& low, Real& high)
 {
@@ -154,7 +157,7 @@ inline void extent_of_lanes(batch<Real> smallest, batch<Real> largest, Real& low
     high = largest_lane<Real>(largest);
 }
 
-/// The box of points that come in packets.
+/// The bounding box of points that are added in packets.
 template <class Real>
 class PacketBox {
 public:
@@ -183,7 +186,7 @@ private:
     Vec3v<Real> high_{negated(never()), negated(never()), negated(never())};
 };
 
-/// `count` > 0.
+/// The smallest and largest of `count` > 0 values.
 template <class Real>
 inline void extent(const Real* values, int count, Real& low, Real& high)
 {
@@ -202,9 +205,9 @@ inline void extent(const Real* values, int count, Real& low, Real& high)
     extent_of_lanes<Real>(smallest, largest, low, high);
 }
 
-/// `count` > 0.
-template <class Real, std::size_t Size>
-inline Box<Real> box_of(const Real (&points)[3][Size], int count)
+/// The bounding box of `count` > 0 points.
+template <class Real, std::size_t Length>
+inline Box<Real> box_of(const Real (&points)[3][Length], int count)
 {
     Box<Real> box;
     for (int axis = 0; axis < 3; ++axis)
@@ -212,8 +215,8 @@ inline Box<Real> box_of(const Real (&points)[3][Size], int count)
     return box;
 }
 
-/// The ball around a box, with room for what rounding does to coordinates as large as its own:
-/// to its centre, and to rays that start lifted off the points in it.
+/// The ball around a box, enlarged for rounding errors of coordinates of that size: those of its
+/// centre, and the offsets of rays that start off the points in the box.
 template <class Real>
 inline Ball<Real> ball_around(const Box<Real>& box)
 {
@@ -230,7 +233,7 @@ inline Ball<Real> ball_around(const Box<Real>& box)
     return ball;
 }
 
-/// From everything in `box` along `direction`.
+/// The cone of parallel rays from the points in `box`.
 template <class Real>
 inline Cone<Real> parallel_cone(const Real (&direction)[3], const Box<Real>& box)
 {
@@ -250,7 +253,7 @@ inline Cone<Real> parallel_cone(const Real (&direction)[3], const Box<Real>& box
     return cone;
 }
 
-/// From a point light to everything in `box`: a cone around the ball that holds the box.
+/// The cone of rays from a point light to the points in `box`, by the ball around the box.
 template <class Real>
 inline Cone<Real> segment_cone(const Real (&light)[3], const Box<Real>& box)
 {
@@ -275,7 +278,8 @@ inline Cone<Real> segment_cone(const Real (&light)[3], const Box<Real>& box)
     return cone;
 }
 
-/// From everything in `box` to a point: one outside the ball that holds the box, or not bounded.
+/// The cone of rays from the points in `box` to a point; not bounded if the point is inside the
+/// ball around the box.
 template <class Real>
 inline Cone<Real> cone_to(const Real (&point)[3], const Box<Real>& box)
 {

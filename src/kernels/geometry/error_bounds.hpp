@@ -2,29 +2,30 @@
 
 #include "kernels/geometry/packet.hpp"
 
-// What rounding to single precision can do to a test, as bounds that hold for all rays of a group:
-// the origins of a group lie in a ball, which bounds every length that enters a test.
-// docs/numerics_derivations.md derives the constants, which stand in the files of the surfaces.
+// Bounds of the rounding errors of tests in single precision, which hold for all rays of a set: the
+// origins of the set lie in a ball, which bounds every length in a test.
+// docs/numerics_derivations.md derives the constants, which are in the file of each kind of
+// surface.
 namespace packtrace::PACKTRACE_ISA {
 namespace {
 
 /// Half a unit in the last place of 1.
 inline constexpr float roundoff = 0x1p-24f;
-/// Makes up for the rounding of the bounds' own computation.
+/// Compensates for rounding errors in the computation of the bounds themselves.
 inline constexpr float inflation = 1.0001f;
 #if defined(__FMA__) || defined(__aarch64__)
 inline constexpr float product_roundings = 1.0f;
 #else
-/// Without fused operations each product of a dot or cross product rounds once more.
+/// Without fused operations each product in a dot or cross product is rounded once more.
 inline constexpr float product_roundings = 2.0f;
 #endif
-/// Roundings of a group of operations, in roundoffs.
+/// The relative error of `count` roundings.
 inline constexpr float roundoffs(float count)
 {
     return count * product_roundings * roundoff * inflation;
 }
 
-// A number by itself where a packet may stand, for what is written once for both.
+// Scalar versions of packet functions, for templates that take either.
 
 /// a b + c, rounded once where the processor fuses (product_roundings).
 inline float madd(float a, float b, float c)
@@ -48,26 +49,29 @@ inline float signed_square(float x)
     return x * (x < 0 ? -x : x);
 }
 
-/// Where the rays of a group start.
+/// Whether the rays of a set share their origin.
+enum class Origin { shared, any };
+
+/// A ball that contains the origins of a set of rays.
 struct Origins {
     float center[3] = {};
-    float radius = 0;  ///< 0: all at the centre, exactly
+    float radius = 0;  ///< 0: all origins are exactly the centre
 };
 
-/// Beyond these magnitudes squares of single precision overflow or lose digits to underflow, and
-/// no test is certain.
+/// Beyond these magnitudes squares in single precision overflow or lose digits to underflow, and no
+/// error bound holds.
 inline constexpr float largest_certain = 1e9f;
 inline constexpr float largest_direction2 = 1e18f;
 inline constexpr float smallest_direction2 = 1e-18f;
 
-/// Lanes whose directions are of magnitudes that the bounds hold for.
+/// Lanes whose directions have magnitudes that the bounds hold for.
 inline vmask<float> certifiable(const RayPacket<float>& rays)
 {
     return (rays.dir2 <= vreal<float>(largest_direction2)) &
            (rays.dir2 >= vreal<float>(smallest_direction2));
 }
 
-/// Whether origins are. NaN is not.
+/// Whether the bounds hold for these origins. False for NaN.
 inline bool certifiable(const Origins& origins)
 {
     bool within = origins.radius <= largest_certain;
@@ -76,13 +80,13 @@ inline bool certifiable(const Origins& origins)
     return within;
 }
 
-/// All at one point.
+/// Origins that are all at one point.
 inline Origins origins_at(const float (&point)[3])
 {
     return {{point[0], point[1], point[2]}};
 }
 
-/// The ball around a box of origins, and around places that are off them by origin_offset().
+/// The ball around a box of origins, enlarged to contain origins moved by origin_offset().
 inline Origins origins_in(const float (&low)[3], const float (&high)[3])
 {
     Origins origins;
@@ -99,8 +103,9 @@ inline Origins origins_in(const float (&low)[3], const float (&high)[3])
     return origins;
 }
 
-/// 1 / sqrt(x) within 8 roundoffs, by a step of Newton's from what the processor estimates: a
-/// decision by bounds is the same however they were rounded.
+/// 1 / sqrt(x) within 8 roundoffs: the processor's estimate, improved by one Newton step. The
+/// estimate differs between processors, but a decision by error bounds does not depend on how they
+/// were rounded.
 inline vreal<float> rough_inverse_sqrt(const vreal<float>& x)
 {
     const vreal<float> y = estimate_inverse_sqrt(x);
@@ -108,7 +113,7 @@ inline vreal<float> rough_inverse_sqrt(const vreal<float>& x)
     return y * nmadd(half, y, vreal<float>(1.5f));
 }
 
-/// What bounds of one ray need of it, which is the same for all surfaces.
+/// The values of a ray that all error bounds use.
 struct RayScale {
     vreal<float> inverse2;  ///< 1 / d·d, within 20 roundoffs
     vreal<float> inverse;   ///< 1 / |d|, within 10

@@ -4,13 +4,14 @@
 #include "kernels/stats/observe.hpp"
 
 // A floating-point filter (Brönnimann, Burnikel and Pion, "Interval arithmetic yields efficient
-// dynamic filters", 2001) for the closest hit: each test gives the interval that its t is in, or
-// says that it cannot tell. The search keeps the hit that ends first, and where anything else may
-// begin; where those overlap the ray is unsure, and is traced again in double (retrace.hpp).
+// dynamic filters", 2001) for the closest hit. Each test returns an interval that contains t, or
+// reports that it cannot decide. The search keeps the hit whose interval ends first, and the
+// smallest t at which any other hit may be. If these overlap, the ray is unsure and is traced again
+// in double (retrace.hpp).
 namespace packtrace::PACKTRACE_ISA {
 namespace {
 
-/// The hits in [low, high] of the lanes of `active` are there for sure.
+/// Keeps hits that certainly exist, with t in [low, high], in the lanes of `active`.
 inline void keep_sure(HitPacket<float>& hit, vmask<float> active, const vreal<float>& low,
                       const vreal<float>& high, std::int32_t surface)
 {
@@ -24,32 +25,32 @@ inline void keep_sure(HitPacket<float>& hit, vmask<float> active, const vreal<fl
     hit.surface = select(first, number, hit.surface);
 }
 
-/// The lanes of `active` may have a hit, not before `low`. Those of `at_end` have it, but maybe
-/// before t_min; the others may touch the surface or pass it.
+/// Records that the lanes of `active` may have a hit at `low` or later. In the lanes of `at_end` it
+/// exists but may be before t_min; in the others it may not exist.
 inline void keep_doubt(HitPacket<float>& hit, vmask<float> active, const vreal<float>& low,
                        std::uint32_t at_end)
 {
-    // A NaN says that it may be anywhere.
+    // NaN means that it may be anywhere.
     const vreal<float> from = select(low == low, low, vreal<float>(-__builtin_inff()));
     note_doubt<float>(active & (from < hit.other), at_end);
     hit.other = select(active & (from < hit.other), from, hit.other);
 }
 
-/// Nothing is certain of the lanes of `active`.
+/// Makes the lanes of `active` unsure.
 inline void doubt_all(HitPacket<float>& hit, vmask<float> active)
 {
     note_magnitude<float>(active);
     hit.other = select(active, vreal<float>(-__builtin_inff()), hit.other);
 }
 
-/// Lanes whose hit is not certain.
+/// Lanes whose closest hit is unsure.
 inline std::uint32_t unsure_lanes(const HitPacket<float>& hit)
 {
     const vreal<float> never(__builtin_inff());
     return bits((hit.other <= hit.t) & (hit.other < never));
 }
 
-/// The interval of a t that was rounded once.
+/// The ends of an interval that contains a t that was rounded once.
 inline vreal<float> rounded_low(const vreal<float>& t)
 {
     return nmadd(vreal<float>(roundoffs(2.0f)), abs(t), t);
@@ -59,7 +60,7 @@ inline vreal<float> rounded_high(const vreal<float>& t)
     return madd(vreal<float>(roundoffs(2.0f)), abs(t), t);
 }
 
-/// The two roots of a surface along the rays, and the most that each may be off by.
+/// The two roots of a surface's equation along the rays, and an upper bound of the error of each.
 struct RootIntervals {
     vreal<float> near, far;
     vreal<float> error;
@@ -68,8 +69,8 @@ struct RootIntervals {
 /// The first of two roots beyond t_min.
 struct FirstRoot {
     vreal<float> low, high;
-    vmask<float> counts;  ///< lanes in which it is beyond for sure
-    std::uint32_t none;   ///< in which neither is, for sure
+    vmask<float> counts;  ///< lanes in which the root is certainly beyond t_min
+    std::uint32_t none;   ///< lanes in which certainly neither root is
 };
 
 inline FirstRoot first_root_beyond(const RootIntervals& roots, const vreal<float>& t_min)
@@ -81,7 +82,7 @@ inline FirstRoot first_root_beyond(const RootIntervals& roots, const vreal<float
     return {low, high, low > t_min, bits(near_behind) & bits(high < t_min)};
 }
 
-/// Keeps the first root beyond t_min in the lanes of `sure`, whose rays cross the surface.
+/// Keeps the first root beyond t_min in the lanes of `sure`, which certainly hit the surface.
 inline void keep_first_of(HitPacket<float>& hit, const RootIntervals& roots, vmask<float> sure,
                           const vreal<float>& t_min, std::int32_t surface)
 {
@@ -92,13 +93,13 @@ inline void keep_first_of(HitPacket<float>& hit, const RootIntervals& roots, vma
         keep_doubt(hit, from_bits<float>(open), first.low, all_lanes<float>);
 }
 
-/// What certain tests say of occlusion.
+/// The result of tests for occlusion with error bounds.
 struct Occlusion {
-    std::uint32_t blocked = 0;  ///< lanes
-    std::uint32_t unsure = 0;   ///< lanes, not among the blocked
+    std::uint32_t blocked = 0;  ///< lanes that are certainly occluded
+    std::uint32_t unsure = 0;   ///< lanes that may be occluded, not among `blocked`
 };
 
-/// Whether a root of the lanes of `sure` lies between t_min and t_end.
+/// Whether a root lies between t_min and t_end, in the lanes of `sure`.
 inline Occlusion root_between(const RootIntervals& roots, vmask<float> sure,
                               const vreal<float>& t_min, const vreal<float>& t_end)
 {
@@ -118,7 +119,7 @@ inline Occlusion root_between(const RootIntervals& roots, vmask<float> sure,
     return {inside, open & ~outside};
 }
 
-/// The same of a single root in [low, high].
+/// The same for a single root in [low, high].
 inline Occlusion root_between(const vreal<float>& low, const vreal<float>& high,
                               std::uint32_t active, const vreal<float>& t_min,
                               const vreal<float>& t_end)

@@ -6,18 +6,18 @@
 #include "kernels/geometry/quadric_filter.hpp"
 #include "kernels/geometry/sphere_order.hpp"
 
-// The kinds of objects: a new one is a file, and its name in Kinds. Its file says, with the names
-// that the files of the others have:
-// - What lists hold of it: the scene's record, all or some (Selected), its form for rays from one
-//   point (share_origin), its form with error bounds (certain_form).
-// - What a cone of rays leaves out of a list: out_of_reach, leaves_behind.
+// The kinds of objects. A new kind is one file, and its name in Kinds. The file defines, with the
+// names that the other kinds use:
+// - What lists hold: the scene's records, all or some (Selected), their form for rays from one
+//   point (share_origin), and their form with error bounds (certain_form).
+// - Which objects of a list a cone of rays can skip: out_of_reach, leaves_behind.
 // - Its tests: keep_closest, occluding_lanes and visit_crossings, or quadratic_of for all three.
 // - Its tests with error bounds: keep_certain, occludes.
-// - Of its shape in double, the place of a hit: refine, unit_normal, height_over, and form_of where
-//   one step of Newton's betters a rough root, or the root next to what the search found.
-// - Where rays that start on it meet it again: hit_again, second_crossing.
-// - The struct of its name, with the types and lists that the loops ask for.
-// What holds of an object unless its kind says otherwise is in object_list.hpp.
+// - For its shape in double, the point of a hit: refine, unit_normal, height_over. Also form_of, if
+//   one Newton step improves a rough root, or improves the root next to what the search found.
+// - Where rays that start on it hit it again: hit_again, second_crossing.
+// - The struct with the kind's name, which has the types and lists that the loops use.
+// object_list.hpp has defaults, for kinds that do not define a function.
 namespace packtrace::PACKTRACE_ISA {
 namespace {
 
@@ -56,7 +56,7 @@ struct KindList {
 };
 using Kinds = KindList<Sphere, AnchoredSphere, Plane, Quadric, Polygon>;
 
-/// Calls `visit(kind)` for the kinds that scenes of these features have, until it returns false.
+/// Calls `visit(kind)` for the kinds that are compiled with these features, until it returns false.
 template <abi::Features F, class Visit, class... Kind>
 inline bool for_each_kind(const Visit& visit, KindList<Kind...>)
 {
@@ -74,7 +74,7 @@ inline bool for_each_kind(const Visit& visit)
     return for_each_kind<F>(visit, Kinds{});
 }
 
-/// `visit(shape, piece)` of the surface that `index` names.
+/// Returns `visit(shape, piece)` for the surface that `index` names.
 template <class Visit, class First, class... Rest>
 inline auto with_shape(const abi::ShapesView& shapes, const abi::SurfaceIndex& index,
                        const Visit& visit, KindList<First, Rest...>)
@@ -96,7 +96,7 @@ inline auto with_shape(const abi::ShapesView& shapes, const abi::SurfaceIndex& i
     return with_shape(shapes, index, visit, Kinds{});
 }
 
-/// The list of one kind, as a base of what holds a list of each.
+/// The list of one kind: a base class of structs that hold a list of each kind.
 template <class Kind, class List>
 struct ListOfKind {
     List list;
@@ -112,7 +112,7 @@ inline const List& list_of(const ListOfKind<Kind, List>& lists)
     return lists.list;
 }
 
-/// The outward unit normal of one surface at a point, for rays of direction `dir`.
+/// The outward unit normal of a surface at a point, for rays with direction `dir`.
 template <class Real>
 inline Vec3v<Real> surface_normal(const abi::ShapesView& shapes, const abi::SurfaceIndex& index,
                                   const Vec3v<Real>& point, const Vec3v<Real>& dir)

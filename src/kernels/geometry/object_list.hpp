@@ -4,11 +4,11 @@
 #include "kernels/geometry/cone.hpp"
 #include "kernels/geometry/error_bounds.hpp"
 
-// Lists of objects of one kind, and what holds of an object unless its kind says otherwise.
+// Lists of objects of one kind, and the defaults for what a kind does not define.
 namespace packtrace::PACKTRACE_ISA {
 namespace {
 
-/// The surfaces of one object, which are numbered from `first` on.
+/// The surfaces of one object, numbered from `first` on.
 struct Body {
     std::int32_t first;
     int pieces = 1;
@@ -19,14 +19,14 @@ inline bool is_on(const Body& body, std::int32_t surface)
     return surface >= body.first && surface < body.first + body.pieces;
 }
 
-/// Of objects that have one surface.
+/// Default: the object has one surface.
 template <class Object>
 inline Body body_of(const Object& object)
 {
     return {object.surface};
 }
 
-/// The lanes of `own` that are one of a body's `pieces`, which are numbered from `first` on.
+/// The lanes of `own` that are one of `pieces` surfaces numbered from `first` on.
 template <class Real>
 inline std::uint32_t lanes_on_body(const vint<Real>& own, std::int32_t first, int pieces = 1)
 {
@@ -36,10 +36,13 @@ inline std::uint32_t lanes_on_body(const vint<Real>& own, std::int32_t first, in
     return on_body;
 }
 
-/// What the loops over kinds (kinds.hpp) ask of each. Surfaces of an object are numbered in a row;
-/// kernels without quadrics have none of a kind that is `WithQuadrics`.
+/// The features for which a kind is compiled: all, or those with Features::quadrics.
+enum class CompiledFor { all_features, quadrics };
+
+/// Base of the structs of kinds (kinds.hpp). The surfaces of an object have consecutive numbers.
+/// Kernels without Features::quadrics have no kind that is compiled for `quadrics`.
 template <abi::Primitive P, abi::SurfaceKind First, unsigned Surfaces = 1,
-          bool WithQuadrics = false>
+          CompiledFor C = CompiledFor::all_features>
 struct KindOf {
     static constexpr abi::Primitive primitive = P;
     static constexpr abi::SurfaceKind first_surface = First;
@@ -47,7 +50,7 @@ struct KindOf {
 
     static constexpr bool in(abi::Features features)
     {
-        return !WithQuadrics || features.quadrics;
+        return C == CompiledFor::all_features || features.quadrics;
     }
 };
 
@@ -57,7 +60,7 @@ struct ObjectArray {
     int count = 0;
 };
 
-/// Some of a scene's records.
+/// Pointers to some of a scene's records.
 template <class Record>
 struct SelectedRecords {
     const Record** data = nullptr;
@@ -81,17 +84,18 @@ inline const Record& object_at(const abi::RecordList<Record>& list, int index)
 }
 
 template <class Arena, class Object>
-inline void take_room(Arena& arena, ObjectArray<Object>& list, int count)
+inline void take_memory(Arena& arena, ObjectArray<Object>& list, int count)
 {
     list.data = arena.template take<Object>(static_cast<std::size_t>(count));
 }
 template <class Arena, class Record>
-inline void take_room(Arena& arena, SelectedRecords<Record>& list, int count)
+inline void take_memory(Arena& arena, SelectedRecords<Record>& list, int count)
 {
     list.data = arena.template take<const Record*>(static_cast<std::size_t>(count));
 }
 
-/// Whether no ray of a cone reaches an object, by its record alone: by its bound, if it has one.
+/// Whether no ray of a cone can hit an object, judged by its bounding ball. False if the record has
+/// none.
 template <class Real, class Record>
 inline bool out_of_reach(const Cone<Real>& cone, const Record& record)
 {
@@ -103,14 +107,15 @@ inline bool out_of_reach(const Cone<Real>& cone, const Record& record)
         return false;
     }
 }
-/// Whether all rays of a cone leave an object behind, by its form for their origin.
+/// Whether all rays of a cone leave an object behind, judged by its form for the rays' origins.
+/// Default: false.
 template <class Real, class Form>
 inline bool leaves_behind(const Cone<Real>&, const Form&)
 {
     return false;
 }
 
-/// Fills `list` with what rays of `cone`, all from its base, may meet.
+/// Fills `list` with the objects that rays of `cone` may hit; all rays start at its base.
 template <class Form, class Real, class Record>
 inline void find_from_point(ObjectArray<Form>& list, const Cone<Real>& cone,
                             const abi::RecordList<Record>& records)
@@ -126,7 +131,7 @@ inline void find_from_point(ObjectArray<Form>& list, const Cone<Real>& cone,
     }
 }
 
-/// Fills `list` with what rays of `cone` may meet.
+/// Fills `list` with the objects that rays of `cone` may hit.
 template <class Real, class Record>
 inline void find_met(SelectedRecords<Record>& list, const Cone<Real>& cone,
                      const abi::RecordList<Record>& records)
@@ -137,8 +142,9 @@ inline void find_met(SelectedRecords<Record>& list, const Cone<Real>& cone,
             list.data[list.count++] = &records.data[i];
 }
 
-/// Fills `list` with the error bounds of what rays from `origins` may meet; `cone` bounds them.
-template <bool Shared, class Form, class Record, class WideRecord>
+/// Fills `list` with the objects, and their error bounds, that rays from `origins` may hit; `cone`
+/// bounds the rays.
+template <Origin O, class Form, class Record, class WideRecord>
 inline void find_certain(ObjectArray<Form>& list, const Origins& origins, const Cone<float>& cone,
                          const abi::RecordList<Record>& records,
                          const abi::RecordList<WideRecord>& wide)
@@ -148,7 +154,7 @@ inline void find_certain(ObjectArray<Form>& list, const Origins& origins, const 
         if (out_of_reach(cone, records.data[i]))
             continue;
         Form& form = list.data[list.count];
-        form = certain_form<Shared>(records.data[i], wide.data[i], origins);
+        form = certain_form<O>(records.data[i], wide.data[i], origins);
         list.count += !leaves_behind(cone, form);
     }
 }

@@ -4,8 +4,8 @@
 
 #include <limits>
 
-// A hit on the one surface that it is known to be on: its place in double, the rough root that one
-// step of Newton's betters, and where a ray that starts on the surface meets it again.
+// The hit of a ray with one known surface: its point in double, the rough root that one Newton step
+// improves, and where a ray that starts on the surface hits it again.
 namespace packtrace::PACKTRACE_ISA {
 namespace {
 
@@ -16,8 +16,8 @@ inline Vec3v<Real> broadcast_as(const Stored (&v)[3])
             vreal<Real>(static_cast<Real>(v[2]))};
 }
 
-/// Unit; where the gradient vanishes, as in a cone's apex or where planes cross, the way against
-/// the ray.
+/// The gradient scaled to length 1. Where it vanishes, as in a cone's apex or where planes
+/// intersect, the direction against the ray.
 template <class Real>
 inline Vec3v<Real> unit_or_against(const Vec3v<Real>& gradient, const Vec3v<Real>& dir)
 {
@@ -29,7 +29,7 @@ inline Vec3v<Real> unit_or_against(const Vec3v<Real>& gradient, const Vec3v<Real
     return scale<Real>(one / sqrt(dot(any, any)), any);
 }
 
-/// Half a packet of hits with all that shading needs of the place.
+/// Half a packet of hits, with the values that shading needs.
 struct RefinedHalf {
     vreal<double> t;
     Vec3v<double> point;
@@ -41,21 +41,22 @@ inline Vec3v<double> point_at(const RayPacket<double>& rays, const vreal<double>
     return madd<double>(t, rays.dir, rays.org);
 }
 
-/// The first root beyond t_min. A ray that only grazes the surface in double touches it.
+/// The first root beyond t_min. A ray that misses the surface by rounding in double counts as
+/// touching it.
 inline vreal<double> first_root(const Quadratic<double>& quadratic, const vreal<double>& t_min)
 {
     const vreal<double> root =
         with_sign_of(sqrt(max(quadratic.discriminant, vreal<double>(0.0))), quadratic.b);
     const vreal<double> minus_q = quadratic.b + root;
     const vreal<double> first = lesser_root(quadratic, root, minus_q, all_lanes<double>);
-    // For t_min >= 0 this is the first root that can count.
+    // For t_min >= 0 this is the first root that can be beyond t_min.
     const auto counts = first > t_min;
     if (all(counts))
         return first;
     return select(counts, first, negated(minus_q) / quadratic.a);
 }
 
-/// A value for each half of a packet of floats.
+/// One value for each half of a packet of floats.
 template <class Value>
 struct BothHalves {
     Value low, high;
@@ -75,13 +76,14 @@ inline Vec3v<float> rough(const double (&v)[3])
     return broadcast_as<float>(v);
 }
 
-/// A root in single precision: the first beyond t_min, as far as that can tell.
+/// A root in single precision: the first beyond t_min, up to rounding.
 struct RoughRoot {
     vreal<float> t;
     vreal<float> bend;  ///< half the second derivative along the ray
 };
 
-/// The residual of a packet at t, half its derivative along the ray, and half its gradient.
+/// The residual of the surface's equation at t, half its derivative along the ray, and half its
+/// gradient.
 struct Residual {
     vreal<float> value;
     vreal<float> slope;
@@ -104,7 +106,8 @@ struct WideRays {
     }
 };
 
-/// Anchored spheres and, with no curvature, planes: (g + n)·w + offset = 0 for g = n + curvature w.
+/// The equation of anchored spheres and, with curvature 0, planes: (g + n)·w + offset = 0 for g = n
+/// + curvature w.
 struct AnchoredForm {
     static constexpr bool root_is_known = false;
 
@@ -171,41 +174,43 @@ inline Vec3v<float> normal_of(const AnchoredForm& form, const Vec3v<float>& grad
     return madd<float>(form.rough_curvature, step, gradient);
 }
 
-/// Whether a surface may be met again from its inner side alone, from anywhere, or never.
+/// From which side a ray may leave a surface and hit it again.
 enum class HitAgain { never, from_inside, from_anywhere };
 
-/// A surface along lines from a point on it: 2 slope t + bend t² = 0.
+/// A surface's equation along a line from a point on it: 2 slope t + bend t² = 0.
 struct SurfaceLine {
     vreal<double> slope, bend;
 };
 
-/// Where the rays of half a packet meet their own body again, and the lanes that meet it in a cap.
+/// Where the rays of half a packet hit again the object that they start on, and the lanes that hit
+/// it in a cap.
 struct OwnCrossing {
-    vreal<double> t;  ///< infinite for nowhere
+    vreal<double> t;  ///< infinite if they do not
     std::uint32_t low_cap = 0;
     std::uint32_t high_cap = 0;
 };
 
-/// The least t that counts as beyond the start.
+/// The smallest t that counts as beyond the start.
 inline vreal<double> at_once()
 {
     return vreal<double>(std::numeric_limits<double>::min());
 }
 
-/// The other root of `line`, whose slope has the sign of the side that the rays leave on, so that
-/// rounding cannot turn it for grazing rays. Negative or NaN where there is none ahead.
+/// The other root of `line`. The sign of the slope is taken from the side that the rays leave on,
+/// so that rounding cannot flip it for grazing rays. Negative or NaN if there is no root ahead.
 inline vreal<double> other_root(const SurfaceLine& line, vmask<double> outside)
 {
     const vreal<double> twice = abs(line.slope) + abs(line.slope);
     return select(outside, negated(twice), twice) / line.bend;
 }
 
-/// The hit at the other root of a surface that no other piece belongs to.
+/// The hit at the other root, for a surface that is the object's only piece.
 inline OwnCrossing only_crossing(const vreal<double>& root, const vreal<double>& bend,
                                  const vreal<double>& t_min, vmask<double> outside)
 {
     const vreal<double> never(__builtin_inf());
-    // A ray along the surface, on its inner side, leaves what bends away from it at once.
+    // A ray that runs along the surface on its inner side leaves a surface that bends away from it
+    // at once.
     const std::uint32_t inwards = ~bits(outside) & bits(bend > vreal<double>(0.0));
     const std::uint32_t ahead = inwards | bits(root > vreal<double>(0.0));
     const vreal<double> t = max(root, at_once());

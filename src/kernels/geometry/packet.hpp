@@ -5,22 +5,22 @@
 namespace packtrace::PACKTRACE_ISA {
 namespace {
 
-/// One ray per lane. Directions need not be unit; t counts in their lengths.
+/// One ray per lane. Directions need not be unit vectors; t counts in their lengths.
 template <class Real>
 struct RayPacket {
     Vec3v<Real> org;
     Vec3v<Real> dir;
     vreal<Real> dir2;   ///< dir·dir
-    vreal<Real> t_min;  ///< >= 0; hits must lie beyond it
+    vreal<Real> t_min;  ///< >= 0; hits must be beyond it
 };
 
-/// The closest hit so far of each lane. With Features::exact its t is known to an interval.
+/// The closest hit so far of each lane. With Features::exact its t is known as an interval.
 template <class Real>
 struct HitPacket {
-    vreal<Real> t;       ///< hits must lie before it; with Features::exact the interval's upper end
+    vreal<Real> t;  ///< hits must be before it; with Features::exact the upper end of the interval
     vint<Real> surface;  ///< -1: none yet
-    vreal<Real> t_low;   ///< with Features::exact: its lower end
-    vreal<Real> other;   ///< likewise: nothing but the hit lies before it for sure
+    vreal<Real> t_low;   ///< with Features::exact: the lower end of the interval
+    vreal<Real> other;   ///< with Features::exact: every other hit is certainly at this t or later
 };
 
 template <class Real>
@@ -41,8 +41,8 @@ inline HitPacket<Real> no_hit(Real t_max)
     return no_hit<Real>(vreal<Real>(t_max));
 }
 
-/// Takes the hits at `t` where `valid` and closer; at equal t the lower surface number wins, so
-/// that the order of testing does not matter.
+/// Keeps the hits at `t` where `valid` and closer. At equal t the lower surface number wins, so the
+/// order of the tests does not matter.
 template <class Real>
 inline void keep_closer(HitPacket<Real>& hit, batch_bool<Real> valid, batch<Real> t,
                         std::int32_t surface)
@@ -55,7 +55,7 @@ inline void keep_closer(HitPacket<Real>& hit, batch_bool<Real> valid, batch<Real
     hit.surface = select(take, number, hit.surface);
 }
 
-/// A packet of vectors, to be read lane by lane.
+/// A packet of vectors, stored so that lanes can be read one by one.
 template <class Real>
 struct LaneVectors {
     alignas(64) Real axis[3][lanes<Real>];
@@ -73,7 +73,7 @@ struct LaneVectors {
     }
 };
 
-// A packet of floats as two of doubles.
+// A packet of rays in single precision as two packets in double.
 
 inline RayPacket<double> with_square(const Vec3v<double>& org, const Vec3v<double>& dir,
                                      const vreal<double>& t_min)

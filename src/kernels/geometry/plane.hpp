@@ -11,11 +11,12 @@
 
 #include <type_traits>
 
-// Planes: the test, for rays from one point, too, a hit's place, and the test with error bounds.
+// Planes: the test, also for rays from one point, the point of a hit, and the test with error
+// bounds.
 namespace packtrace::PACKTRACE_ISA {
 namespace {
 
-/// Planes, and what lies in one: polygons.
+/// Planes, and polygons, which lie in one.
 template <class Record>
 concept IsFlat = requires(const Record& flat)
 {
@@ -23,8 +24,9 @@ concept IsFlat = requires(const Record& flat)
     flat.normal;
 };
 
-/// n·v of doubles in twice their digits, after T. Ogita, S. M. Rump and S. Oishi, "Accurate Sum and
-/// Dot Product", SIAM J. Sci. Comput. 26(6), 2005; in their own where products are not fused.
+/// n·v in twice the digits of double, after T. Ogita, S. M. Rump and S. Oishi, "Accurate Sum and
+/// Dot Product", SIAM J. Sci. Comput. 26(6), 2005. Without fused products it has the digits of
+/// double only.
 inline vreal<double> dot_in_twice(const Vec3v<double>& n, const Vec3v<double>& v)
 {
     const Vec3v<double> product = n * v;
@@ -40,9 +42,10 @@ inline vreal<double> dot_in_twice(const Vec3v<double>& n, const Vec3v<double>& v
     return sum(two, product.z, error) + error;
 }
 
-/// n·v, which says by its sign, and by 0, on which side of a plane something is or whether it runs
-/// along it. Where doubles cancel it is taken in twice their digits: of what is 0 rounding would
-/// make a hit anywhere. Single precision alone (Accuracy::fast) has it as it comes.
+/// n·v. Its sign says on which side of a plane a point is; 0 means that a direction is parallel to
+/// the plane. Where its terms cancel in double, it is computed with twice the digits, because
+/// rounding errors instead of 0 would make a hit anywhere. Single precision without error bounds
+/// (Accuracy::fast) uses the rounded value.
 template <class Real>
 inline vreal<Real> dot_across(const Vec3v<Real>& n, const Vec3v<Real>& v)
 {
@@ -55,15 +58,15 @@ inline vreal<Real> dot_across(const Vec3v<Real>& n, const Vec3v<Real>& v)
     return rounded;
 }
 
-/// Height of the plane over the origin along its normal. The origin is taken relative to the
-/// plane's point, which halves the error of n·point - n·org.
+/// The height of the plane over the origin, along its normal. Subtracting the origin from the
+/// plane's point first halves the error of n·point - n·org.
 template <class Real, IsFlat Flat>
 inline vreal<Real> plane_height(const Flat& plane, const Vec3v<Real>& org)
 {
     return dot_across<Real>(broadcast(plane.normal), broadcast(plane.point) - org);
 }
 
-/// Where the rays cross a plane; infinite or NaN for rays along it.
+/// The t at which rays hit a plane; infinite or NaN for rays parallel to it.
 template <IsFlat Flat, class Real>
 inline vreal<Real> plane_t(const Flat& plane, const RayPacket<Real>& rays)
 {
@@ -71,7 +74,7 @@ inline vreal<Real> plane_t(const Flat& plane, const RayPacket<Real>& rays)
            dot_across<Real>(broadcast(plane.normal), rays.dir);
 }
 
-/// A plane seen from an origin that all rays share.
+/// A plane for rays that share their origin.
 template <class Real>
 struct SharedOriginPlane {
     Real normal[3];
@@ -94,7 +97,7 @@ inline vreal<Real> plane_t(const SharedOriginPlane<Real>& plane, const RayPacket
     return vreal<Real>(plane.height) / dot_across<Real>(broadcast(plane.normal), rays.dir);
 }
 
-/// Whether all rays of a cone run away from it on the side they start on.
+/// Whether all rays of a cone run away from the plane, on the side they start on.
 template <class Real>
 inline bool leaves_behind(const Cone<Real>& cone, const SharedOriginPlane<Real>& plane)
 {
@@ -108,7 +111,7 @@ template <class Object, class Real>
 concept IsPlane = std::is_same_v<Object, abi::PlaneRecord<Real>> ||
     std::is_same_v<Object, SharedOriginPlane<Real>>;
 
-/// Keeps what is closer, but for the lanes of `own`.
+/// Keeps closer hits, except in lanes that start on the plane.
 template <class Object, class Real, class Own>
 requires IsPlane<Object, Real>
 inline void keep_closest(HitPacket<Real>& hit, const Object& plane, const RayPacket<Real>& rays,
@@ -121,7 +124,7 @@ inline void keep_closest(HitPacket<Real>& hit, const Object& plane, const RayPac
                       plane.surface);
 }
 
-/// Lanes that it is in the way of.
+/// Lanes that the plane occludes.
 template <class Object, class Real>
 requires IsPlane<Object, Real>
 inline std::uint32_t occluding_lanes(const RayEnd<Real>& end, const Object& plane,
@@ -143,14 +146,15 @@ inline Vec3v<Real> unit_normal(const Flat& plane, unsigned, const Vec3v<Real>&, 
     return broadcast_as<Real>(plane.normal);
 }
 
-/// How far outside a point near the surface is, to first order; so in the other kinds' files.
+/// The height of a point near the surface over it, to first order, positive outside. The other
+/// kinds define the same.
 template <IsFlat Flat>
 inline vreal<double> height_over(const Flat& plane, unsigned, const Vec3v<double>& point)
 {
     return dot(broadcast(plane.normal), point - broadcast(plane.point));
 }
 
-/// What is flat is never met again.
+/// A ray that leaves a flat surface never hits it again.
 template <IsFlat Flat>
 inline HitAgain hit_again(const Flat&, unsigned)
 {
@@ -176,20 +180,20 @@ inline AnchoredForm form_of(const Flat& plane)
     return anchored_form(plane.point, plane.normal, 0.0, 0.0);
 }
 
-// Certain tests of planes in single precision. Each group of rays sees the plane by the point
-// nearest its origins, so that heights are as small as they can be.
+// Tests of planes with error bounds, in single precision. Each set of rays gets its own point of
+// the plane, the one nearest to the rays' origins, so that heights are as small as possible.
 
-/// A plane for the origins of one group: t = height / (normal·d), height = normal·(point - o).
+/// A plane for a set of ray origins: t = height / (normal·d), height = normal·(point - o).
 struct PlaneFilter {
     float point[3];
     float normal[3];
     float height;        ///< over a shared origin, rounded once from double
-    float height_error;  ///< at most
-    float slope_error;   ///< of normal·d, per |d|
+    float height_error;  ///< upper bound
+    float slope_error;   ///< upper bound for normal·d, per |d|
     std::int32_t surface;
 };
 
-template <bool Shared>
+template <Origin O>
 [[gnu::noinline]] PlaneFilter plane_filter(const abi::PlaneRecord<double>& plane,
                                            const Origins& origins)
 {
@@ -219,10 +223,10 @@ template <bool Shared>
     const double normal_error = __builtin_sqrt(normal_error2);
     const double reach = __builtin_sqrt(distance2) * 1.000001 + double{origins.radius};
     const double magnitude = height < 0 ? -height : height;
-    // Doubles lose 2^-50 of what enters the height.
+    // The error in double is 2^-50 of the terms of the height.
     const double of_double = size * 0x1p-50;
-    const double error = Shared ? 1.1 * u * magnitude + of_double
-                                : off + (4.2 * u + normal_error) * reach + of_double;
+    const double error = O == Origin::shared ? 1.1 * u * magnitude + of_double
+                                             : off + (4.2 * u + normal_error) * reach + of_double;
     filter.height = static_cast<float>(height);
     filter.height_error = static_cast<float>(error) * (1.0f + roundoffs(4.0f));
     filter.slope_error = static_cast<float>(normal_error + 3.1 * u) * (1.0f + roundoffs(4.0f));
@@ -230,14 +234,14 @@ template <bool Shared>
     return filter;
 }
 
-/// Where a plane is along the rays.
+/// Where rays hit a plane.
 struct PlaneCrossing {
     vreal<float> low, high;
-    vmask<float> sure;  ///< lanes whose crossing is in [low, high]
+    vmask<float> sure;  ///< lanes whose hit is certainly in [low, high]
     vreal<float> height, slope, slope_error;
 };
 
-/// Where it is not before in the other lanes, if ahead at all.
+/// In the other lanes, a lower bound of t, if the plane is ahead at all.
 inline vreal<float> not_before(const PlaneFilter& filter, const PlaneCrossing& at)
 {
     const vreal<float> height = abs(at.height) - vreal<float>(filter.height_error);
@@ -245,20 +249,21 @@ inline vreal<float> not_before(const PlaneFilter& filter, const PlaneCrossing& a
            vreal<float>(1.0f - roundoffs(8.0f));
 }
 
-template <bool Shared>
+template <Origin O>
 inline PlaneCrossing crossing(const PlaneFilter& filter, const RayPacket<float>& rays,
                               const RayScale& scale)
 {
     const Vec3v<float> normal = broadcast(filter.normal);
-    const vreal<float> height =
-        Shared ? vreal<float>(filter.height) : dot(normal, broadcast(filter.point) - rays.org);
+    const vreal<float> height = O == Origin::shared
+                                    ? vreal<float>(filter.height)
+                                    : dot(normal, broadcast(filter.point) - rays.org);
     const vreal<float> slope = dot(normal, rays.dir);
     const vreal<float> slope_error = vreal<float>(filter.slope_error) * scale.length;
     const vreal<float> height_error(filter.height_error);
     const vreal<float> inverse = vreal<float>(1.0f) / slope;
     const vreal<float> t = height * inverse;
     const vreal<float> size = abs(t);
-    // The true slope is half of this one at least in the lanes that are sure.
+    // In the lanes that are sure, the true slope is at least half of this one.
     const vreal<float> error =
         madd(madd(size, slope_error, height_error), vreal<float>(2.0f * inflation) * abs(inverse),
              size * vreal<float>(roundoffs(4.0f)));
@@ -266,12 +271,12 @@ inline PlaneCrossing crossing(const PlaneFilter& filter, const RayPacket<float>&
             height,    slope,     slope_error};
 }
 
-template <bool Shared, class Own>
+template <Origin O, class Own>
 inline void keep_certain(HitPacket<float>& hit, const PlaneFilter& filter,
                          const RayPacket<float>& rays, const RayScale& scale, const Own& own)
 {
     const std::uint32_t not_own = own.template lanes_on_others<float>(filter.surface);
-    const PlaneCrossing at = crossing<Shared>(filter, rays, scale);
+    const PlaneCrossing at = crossing<O>(filter, rays, scale);
     const vmask<float> ahead = at.sure & (at.low > rays.t_min);
     const vmask<float> behind = at.sure & (at.high < rays.t_min);
     keep_sure(hit, ahead & from_bits<float>(not_own), at.low, at.high, filter.surface);
@@ -281,11 +286,11 @@ inline void keep_certain(HitPacket<float>& hit, const PlaneFilter& filter,
                    bits(at.sure));
 }
 
-template <bool Shared, class Own>
+template <Origin O, class Own>
 inline Occlusion occludes(const PlaneFilter& filter, const RayPacket<float>& rays,
                           const RayScale& scale, const vreal<float>& t_end, const Own&)
 {
-    const PlaneCrossing at = crossing<Shared>(filter, rays, scale);
+    const PlaneCrossing at = crossing<O>(filter, rays, scale);
     const std::uint32_t sure = bits(at.sure);
     Occlusion result = root_between(at.low, at.high, sure, rays.t_min, t_end);
     const std::uint32_t flat = ~sure & all_lanes<float>;
@@ -297,14 +302,14 @@ inline Occlusion occludes(const PlaneFilter& filter, const RayPacket<float>& ray
     return result;
 }
 
-template <bool Shared>
+template <Origin O>
 inline PlaneFilter certain_form(const abi::PlaneRecord<float>&,
                                 const abi::PlaneRecord<double>& wide, const Origins& origins)
 {
-    return plane_filter<Shared>(wide, origins);
+    return plane_filter<O>(wide, origins);
 }
 
-/// Whether all rays of a cone stay on the side they start on.
+/// Whether all rays of a cone stay on the side that they start on.
 inline bool leaves_behind(const Cone<float>& cone, const PlaneFilter& plane)
 {
     const float side = plane.height < 0 ? -1.0f : 1.0f;
@@ -316,7 +321,7 @@ inline bool leaves_behind(const Cone<float>& cone, const PlaneFilter& plane)
             runs_against(cone, towards));
 }
 
-/// The kind (kinds.hpp).
+/// The kind, see kinds.hpp.
 struct Plane : KindOf<abi::Primitive::plane, abi::SurfaceKind::plane> {
     template <class Real>
     using FromPoint = ObjectArray<SharedOriginPlane<Real>>;

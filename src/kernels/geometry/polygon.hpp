@@ -4,19 +4,20 @@
 #include "kernels/geometry/ball_filter.hpp"
 #include "kernels/geometry/plane.hpp"
 
-// Planar polygons by the even-odd rule: the test, and, for rays in single precision, a certain
-// rejection with the test in double behind it. A hit's place is that of the plane (plane.hpp).
+// Planar polygons by the even-odd rule: the test, and for rays in single precision a float test
+// that rejects most rays before the test in double. The point of a hit is that of the plane
+// (plane.hpp).
 //
 // Corners are projected along the ray (the shear of Woop, Benthin and Wald, "Watertight
-// Ray/Triangle Intersection", 2013), and the edges counted that cross a half line from where the
-// ray stands. Where rounding could decide about a corner or an edge, the ray counts again without
-// any (even_odd.hpp): polygons that share an edge decide it alike and right, so that no ray slips
-// between them or hits the wrong one.
+// Ray/Triangle Intersection", 2013). The test counts the edges that cross a half line which starts
+// at the ray. Where rounding could decide on which side of the ray a corner or an edge is, the
+// edges are counted again without rounding (even_odd.hpp). So polygons that share an edge agree
+// about it, and no ray passes between them or hits the wrong one.
 namespace packtrace::PACKTRACE_ISA {
 namespace {
 
-/// Whether the z axis is the one that rays go along the most, and if not, whether x is rather than
-/// y.
+/// Lanes whose direction is longest along z, and lanes whose x component is no shorter than y; x is
+/// used only where z is not the longest.
 template <class Real>
 struct LongestAxis {
     vmask<Real> z, x;
@@ -29,7 +30,7 @@ inline LongestAxis<Real> longest_axis(const Vec3v<Real>& dir)
     return {(size.z >= size.x) & (size.z >= size.y), size.x >= size.y};
 }
 
-/// A component, counted on from z to x.
+/// A component of a vector; axis 3 is x again.
 template <int axis, class Real>
 inline const vreal<Real>& component(const Vec3v<Real>& v)
 {
@@ -41,7 +42,7 @@ inline const vreal<Real>& component(const Vec3v<Real>& v)
         return v.z;
 }
 
-/// The lanes of `unsure` whose rays pass through the polygon, without rounding.
+/// The lanes of `unsure` whose lines pass through the polygon, decided without rounding.
 template <class Real>
 [[gnu::noinline]] std::uint32_t passes_through_exactly(const abi::PolygonRecord<Real>& polygon,
                                                        const RayPacket<Real>& rays,
@@ -76,20 +77,37 @@ template <class Real>
     return inside;
 }
 
-/// Lanes by what counting edges says of them.
+/// The result of counting edges.
 struct EdgeCount {
-    std::uint32_t odd = 0;     ///< inside
-    std::uint32_t unsure = 0;  ///< rounding may have decided
+    std::uint32_t odd = 0;     ///< lanes with an odd count: inside
+    std::uint32_t unsure = 0;  ///< lanes in which rounding may have decided
 };
 
-/// A corner as the rays see it, and the lanes in which v >= 0.
+/// A corner projected along the rays, and the lanes in which v >= 0.
 template <class Real>
 struct SeenCorner {
     vreal<Real> u, v;
     std::uint32_t above;
 };
 
-/// Counts the edges for rays whose longest axis is `along`; of other lanes it says nothing.
+/// Lanes in which rounding may have decided the sign of a corner's v or of an edge's turn, of which
+/// the smallest magnitudes are given (docs/numerics_derivations.md).
+template <int along, class Real>
+[[gnu::always_inline]] inline std::uint32_t uncertain_lanes(const abi::PolygonRecord<Real>& polygon,
+                                                            const RayPacket<Real>& rays,
+                                                            const vreal<Real>& least_v,
+                                                            const vreal<Real>& least_turn)
+{
+    constexpr Real roundoffs_16 = sizeof(Real) == 4 ? Real(0x1p-20) : Real(0x1p-49);
+    const Real radius = polygon.bound_radius;
+    const vreal<Real> depth =
+        abs(component<along>(broadcast(polygon.bound) - rays.org)) + vreal<Real>(radius);
+    return bits(either<Real>(least_v <= depth * vreal<Real>(roundoffs_16),
+                             least_turn <= depth * vreal<Real>(8 * roundoffs_16 * radius)));
+}
+
+/// Counts the edges for rays whose longest axis is `along`; the result of other lanes is
+/// meaningless.
 template <int along, class Real>
 [[gnu::always_inline]] inline EdgeCount count_edges(const abi::PolygonRecord<Real>& polygon,
                                                     const RayPacket<Real>& rays)
@@ -112,7 +130,7 @@ template <int along, class Real>
     const auto add_edge_to = [&](const SeenCorner<Real>& to) {
         const std::uint32_t crosses = to.above ^ from.above;
         if (crosses != 0) {
-            // The edge is at u = turn / (to.v - from.v) where it crosses v = 0.
+            // The edge crosses v = 0 at u = turn / (to.v - from.v).
             const vreal<Real> turn = msub(from.u, to.v, to.u * from.v);
             least_turn = min(least_turn, abs(turn));
             count.odd ^= crosses & ~(to.above ^ bits(turn > zero));
@@ -122,22 +140,16 @@ template <int along, class Real>
     for (std::int32_t i = 0; i < polygon.corner_count; ++i) {
         const SeenCorner<Real> first = see(i);
         from = first;
-        // The last corner of a contour is its first.
+        // The last corner of a contour is its first one again.
         while (++i + 1 < polygon.corner_count && polygon.corners[i + 1].starts_contour == 0)
             add_edge_to(see(i));
         add_edge_to(first);
     }
-    // How far a sign has to be from changing (docs/numerics_derivations.md).
-    constexpr Real roundoffs_16 = sizeof(Real) == 4 ? Real(0x1p-20) : Real(0x1p-49);
-    const Real radius = polygon.bound_radius;
-    const vreal<Real> depth =
-        abs(component<along>(broadcast(polygon.bound) - rays.org)) + vreal<Real>(radius);
-    count.unsure = bits(either<Real>(least_v <= depth * vreal<Real>(roundoffs_16),
-                                     least_turn <= depth * vreal<Real>(8 * roundoffs_16 * radius)));
+    count.unsure = uncertain_lanes<along>(polygon, rays, least_v, least_turn);
     return count;
 }
 
-/// The lanes of `active` whose rays pass through the polygon, ahead of their origins or behind.
+/// The lanes of `active` whose lines pass through the polygon, ahead of the origin or behind it.
 template <class Real>
 [[gnu::noinline]] std::uint32_t passes_through(const abi::PolygonRecord<Real>& polygon,
                                                const RayPacket<Real>& rays, std::uint32_t active)
@@ -162,9 +174,9 @@ template <class Real>
     return (found.odd & ~found.unsure) | passes_through_exactly(polygon, rays, found.unsure);
 }
 
-/// `t`, but no further along the rays than the edges that cross their half axes, as rounding has
-/// them: those on either side of a ray that passes through have their crossings before and behind
-/// its own. `t` where rounding finds no edge that crosses.
+/// `t`, clamped to the interval between the edges that cross the half line, as far as rounding
+/// finds any: where a line passes through, edges before and behind its hit cross the half line. `t`
+/// itself if rounding finds no such edge.
 template <class Real>
 [[gnu::noinline]] vreal<Real> between_edges(const abi::PolygonRecord<Real>& polygon,
                                             const RayPacket<Real>& rays, const vreal<Real>& t)
@@ -196,12 +208,11 @@ template <class Real>
     return select(first <= last, select(t > first, min(t, last), first), t);
 }
 
-/// Below this share of a direction's length rounding may decide about its slope to a plane.
+/// If |normal·d| is below this share of |d|, rounding may decide its sign.
 template <class Real>
 inline constexpr Real edge_on = sizeof(Real) == 4 ? Real(0x1p-16) : Real(0x1p-44);
 
-/// Lanes whose rays start in the polygon's plane, for sure: no term of their height is another
-/// than 0.
+/// Lanes whose rays certainly start in the polygon's plane: every term of their height is 0.
 template <class Real>
 inline vmask<Real> starts_in_plane(const abi::PolygonRecord<Real>& polygon,
                                    const RayPacket<Real>& rays)
@@ -210,8 +221,9 @@ inline vmask<Real> starts_in_plane(const abi::PolygonRecord<Real>& polygon,
            vreal<Real>(Real(0));
 }
 
-/// Where rays cross the polygon's plane; of rays that see it from its edge, where they can be
-/// inside, as rounding may have them pass through. Those that start in it cross it there.
+/// The t at which rays hit the polygon's plane. For rays nearly parallel to the plane, t is clamped
+/// to where they can be inside, as rounding may let them pass through. A ray that starts in the
+/// plane hits it there.
 template <class Real>
 inline vreal<Real> polygon_t(const abi::PolygonRecord<Real>& polygon, const RayPacket<Real>& rays)
 {
@@ -219,7 +231,7 @@ inline vreal<Real> polygon_t(const abi::PolygonRecord<Real>& polygon, const RayP
     const vreal<Real> slope = dot_across<Real>(normal, rays.dir);
     const vreal<Real> t = plane_height<Real>(polygon, rays.org) / slope;
     const vreal<Real> length = size_of(rays.dir);
-    // Of rays with a NaN neither is so, and they keep their t, a NaN.
+    // For rays with a NaN no comparison holds, and they keep their t, a NaN.
     const auto sees_edge = abs(slope) <= vreal<Real>(edge_on<Real>) * length;
     if (none(sees_edge))
         return t;
@@ -227,7 +239,8 @@ inline vreal<Real> polygon_t(const abi::PolygonRecord<Real>& polygon, const RayP
     return select(from_bits<Real>(within), between_edges(polygon, rays, t), t);
 }
 
-/// Lanes whose rays are so far from running in the polygon's plane that their hit is the plane's.
+/// Lanes whose rays are so far from parallel to the polygon's plane that their hit is that of the
+/// plane.
 inline std::uint32_t steep_lanes(const abi::PolygonRecord<double>& polygon,
                                  const RayPacket<float>& rays)
 {
@@ -242,7 +255,7 @@ inline RefinedHalf refine(const abi::PolygonRecord<double>& polygon, unsigned,
     return {t, point_at(rays, t), broadcast(polygon.normal)};
 }
 
-/// Rays from one point see it as others do.
+/// Polygons have no form of their own for rays from one point.
 template <class Real>
 inline abi::PolygonRecord<Real> share_origin(const abi::PolygonRecord<Real>& polygon,
                                              const Vec3v<Real>&)
@@ -250,7 +263,7 @@ inline abi::PolygonRecord<Real> share_origin(const abi::PolygonRecord<Real>& pol
     return polygon;
 }
 
-/// Keeps what is closer, but for the lanes of `own`.
+/// Keeps closer hits, except in lanes that start on the polygon.
 template <class Real, class Own>
 inline void keep_closest(HitPacket<Real>& hit, const abi::PolygonRecord<Real>& polygon,
                          const RayPacket<Real>& rays, const Own& own)
@@ -263,7 +276,7 @@ inline void keep_closest(HitPacket<Real>& hit, const abi::PolygonRecord<Real>& p
                           polygon.surface);
 }
 
-/// Lanes that it is in the way of.
+/// Lanes that the polygon occludes.
 template <class Real>
 inline std::uint32_t occluding_lanes(const RayEnd<Real>& end,
                                      const abi::PolygonRecord<Real>& polygon,
@@ -281,27 +294,27 @@ inline void visit_crossings(const abi::PolygonRecord<Real>& polygon, const RayPa
           0);
 }
 
-/// A polygon for the origins of one group of rays in single precision.
+/// A polygon for a set of ray origins in single precision.
 struct PolygonFilter {
     const abi::PolygonRecord<double>* wide;
     BallFilter ball;
     std::int32_t surface;
 };
 
-template <bool Shared>
+template <Origin O>
 inline PolygonFilter certain_form(const abi::PolygonRecord<float>& record,
                                   const abi::PolygonRecord<double>& wide, const Origins& origins)
 {
-    return {&wide, ball_filter<Shared>(wide.bound, record.bound_radius, origins), wide.surface};
+    return {&wide, ball_filter<O>(wide.bound, record.bound_radius, origins), wide.surface};
 }
 
-/// Where rays cross a polygon beyond t_min.
+/// Hits with a polygon beyond t_min.
 struct PolygonCrossings {
     vreal<float> low, high;
     std::uint32_t valid;
 };
 
-/// Of half a packet.
+/// The same for half a packet.
 struct HalfPolygonCrossings {
     vreal<double> t = vreal<double>(0.0);
     std::uint32_t valid = 0;
@@ -331,13 +344,13 @@ inline HalfPolygonCrossings half_crossings(const abi::PolygonRecord<double>& pol
     return {rounded_low(t), rounded_high(t), active & narrow_bits(low.valid, high.valid)};
 }
 
-/// What may hit is tested in double.
-template <bool Shared, class Own>
+/// Rays that may hit the ball are tested in double.
+template <Origin O, class Own>
 inline void keep_certain(HitPacket<float>& hit, const PolygonFilter& filter,
                          const RayPacket<float>& rays, const RayScale& scale, const Own& own)
 {
     const std::uint32_t active =
-        others_near_ball<Shared>(filter.ball, {filter.surface}, rays, scale, hit.t, own);
+        others_near_ball<O>(filter.ball, {filter.surface}, rays, scale, hit.t, own);
     if (active == 0)
         return;
     const PolygonCrossings at = crossings_in_double(*filter.wide, rays, active);
@@ -345,20 +358,21 @@ inline void keep_certain(HitPacket<float>& hit, const PolygonFilter& filter,
         keep_sure(hit, from_bits<float>(at.valid), at.low, at.high, filter.surface);
 }
 
-template <bool Shared, class Own>
+template <Origin O, class Own>
 inline Occlusion occludes(const PolygonFilter& filter, const RayPacket<float>& rays,
                           const RayScale& scale, const vreal<float>& t_end, const Own& own)
 {
     const std::uint32_t active =
-        others_near_ball<Shared>(filter.ball, {filter.surface}, rays, scale, t_end, own);
+        others_near_ball<O>(filter.ball, {filter.surface}, rays, scale, t_end, own);
     if (active == 0)
         return {};
     const PolygonCrossings at = crossings_in_double(*filter.wide, rays, active);
     return root_between(at.low, at.high, at.valid, rays.t_min, t_end);
 }
 
-/// The kind (kinds.hpp). Kernels have it with the quadrics.
-struct Polygon : KindOf<abi::Primitive::polygon, abi::SurfaceKind::polygon, 1, true> {
+/// The kind, see kinds.hpp. Only kernels with Features::quadrics have it.
+struct Polygon
+    : KindOf<abi::Primitive::polygon, abi::SurfaceKind::polygon, 1, CompiledFor::quadrics> {
     template <class Real>
     using FromPoint = ObjectArray<abi::PolygonRecord<Real>>;
     template <class Real>

@@ -4,8 +4,8 @@
 
 #include <limits>
 
-// The quadratic a t² + 2 b t + c = 0 with a > 0 that every curved surface comes down to, and
-// its discriminant b² - a c, which each surface computes in its own stable way.
+// The quadratic a t² + 2 b t + c = 0 with a > 0 that the test of every curved surface solves, and
+// its discriminant b² - a c, which each kind of surface computes in its own stable way.
 namespace packtrace::PACKTRACE_ISA {
 namespace {
 
@@ -15,14 +15,16 @@ struct Quadratic {
     vreal<Real> discriminant;
 };
 
-/// From this share of q² on, rounding could have the lesser root be the larger.
+/// If |a c| is above this share of q², rounding may make the smaller root the larger one.
 template <class Real>
 inline constexpr Real near_square = Real(1) - Real(8) * std::numeric_limits<Real>::epsilon();
 
-/// The root of lesser size, -c / minus_q, of the lanes of `crosses`; minus_q is b plus
-/// `signed_root`. By size the other, -minus_q/a, is no less; where it seems so, the line all but
-/// touches the surface where its equation starts, and of c nothing but rounding is left, of which a
-/// quotient could be anything. Where the two are one but for rounding the first is the first.
+/// The root of smaller magnitude, -c / minus_q, in the lanes of `crosses`; minus_q is b +
+/// `signed_root`. Exactly computed, the other root, -minus_q / a, is no smaller. Where rounding
+/// makes it smaller, the line nearly touches the surface at the equation's origin: c is only
+/// rounding error, its quotient could be anything, and (signed_root - b) / a is used. Where both
+/// roots are positive and equal up to rounding, the smaller is returned, so that the first root
+/// stays the first.
 template <class Real>
 inline vreal<Real> lesser_root(const Quadratic<Real>& quadratic, const vreal<Real>& signed_root,
                                const vreal<Real>& minus_q, std::uint32_t crosses)
@@ -40,7 +42,7 @@ inline vreal<Real> lesser_root(const Quadratic<Real>& quadratic, const vreal<Rea
     return select(abs(product) > square, sum, select(twins, first, root));
 }
 
-/// Lanes where a root may lie at t > 0: with b >= 0 and c >= 0 both roots are behind.
+/// Lanes in which a root may lie at t > 0. With b >= 0 and c >= 0 both roots are behind.
 template <class Real>
 inline vmask<Real> may_hit(const Quadratic<Real>& q)
 {
@@ -48,14 +50,14 @@ inline vmask<Real> may_hit(const Quadratic<Real>& q)
     return (q.discriminant >= zero) & ((q.b < zero) | (q.c < zero));
 }
 
-/// Takes the smallest root beyond t_min, after Press et al., Numerical Recipes, section 5.6:
-/// q = -(b + sign(b) √D), roots c/q and q/a, neither of which cancels. For t_min >= 0, c/q is
-/// the first root that can count, and q/a only matters where b < 0 and c/q is too near.
+/// Keeps the smallest root beyond t_min, after Press et al., Numerical Recipes, section 5.6: q =
+/// -(b + sign(b) √D), roots c/q and q/a, neither of which cancels. For t_min >= 0, c/q is the first
+/// root that can be beyond t_min; q/a matters only where b < 0 and c/q is before t_min.
 template <class Real>
 inline void keep_first_root(HitPacket<Real>& hit, const Quadratic<Real>& quadratic,
                             vmask<Real> active, const vreal<Real>& t_min, std::int32_t surface)
 {
-    // Lanes that miss may hold a NaN here; no comparison lets it through. -q is used for q.
+    // Lanes that miss may hold NaN here, which passes no comparison. The code uses -q instead of q.
     const vreal<Real> root = with_sign_of(sqrt(quadratic.discriminant), quadratic.b);
     const vreal<Real> minus_q = quadratic.b + root;
     vreal<Real> t = lesser_root(quadratic, root, minus_q, bits(active));
@@ -71,8 +73,8 @@ inline void keep_first_root(HitPacket<Real>& hit, const Quadratic<Real>& quadrat
     keep_closer<Real>(hit, active & (t > t_min), t, surface);
 }
 
-/// Calls `visit(valid, t)` for either root, which may be infinite or NaN, where one may lie at
-/// t > 0: of what closest hits leave out rounding makes no hit here.
+/// Calls `visit(valid, t)` for both roots, which may be infinite or NaN. Lanes in which no root can
+/// lie at t > 0 are not valid, as in keep_first_root(), so that rounding makes no additional hits.
 template <class Real, class Visit>
 inline void visit_roots(const Quadratic<Real>& quadratic, const Visit& visit)
 {
@@ -85,9 +87,9 @@ inline void visit_roots(const Quadratic<Real>& quadratic, const Visit& visit)
     visit(crosses, negated(minus_q) / quadratic.a);
 }
 
-/// Of lanes whose quadratic is below zero at t_max as summed up, those where rounding has not made
-/// it so: from far away its terms cancel. a F(t) is also (a t + b)² - discriminant, which loses
-/// less where that root is near; `slope` is a t_max + b.
+/// Called where the sum of the quadratic's terms is negative at t_max. Returns the lanes in which
+/// that is not due to rounding: from far away the terms cancel. a F(t) is also (a t + b)² -
+/// discriminant, which loses fewer digits if a root is near t_max. `slope` is a t_max + b.
 template <class Real>
 inline vmask<Real> ends_inside(const Quadratic<Real>& q, const vreal<Real>& t_max,
                                const vreal<Real>& slope)
@@ -101,8 +103,8 @@ inline vmask<Real> ends_inside(const Quadratic<Real>& q, const vreal<Real>& t_ma
 }
 
 /// Lanes with a root between t_min and t_max, from the signs of the quadratic F at both ends:
-/// either they differ, or both are positive and F dips below zero between them. No square
-/// root, no division. At an infinite t_max F is positive, as a > 0.
+/// either they differ, or both are positive and F is negative somewhere between. It takes no square
+/// root and no division. At an infinite t_max F is positive, as a > 0.
 template <class Real>
 inline vmask<Real> root_between(const Quadratic<Real>& q, const vreal<Real>& t_min,
                                 const vreal<Real>& t_max)
@@ -133,20 +135,24 @@ inline void keep_quadratic(HitPacket<Real>& hit, const Quadratic<Real>& quadrati
             surface);
 }
 
-/// The part of a ray where objects are in its way. One type serves all rays, and tells them apart
-/// by a branch that is always right: a type each would be a copy of the hierarchy's traversal each.
+/// Whether the interval of a ray contains its ends.
+enum class RayInterval : bool {
+    open,   ///< (t_min, t_end), decided by the roots, as for rays from callers
+    closed  ///< [t_min, t_end], decided by signs only, as between a shaded point and a light
+};
+
+/// Where a ray ends that is tested for occlusion, and its interval. One type serves all rays; the
+/// branch on `interval` is predicted well. Two types would double the code of the BVH traversal.
 template <class Real>
 struct RayEnd {
     vreal<Real> t_end;  ///< infinite for directional lights
-    /// [t_min, t_end], decided by signs alone, as between a shaded point and a light; or else
-    /// (t_min, t_end), decided by the roots, as rays from outside have it.
-    bool closed;
+    RayInterval interval;
 
     vmask<Real> blocked_by(const Quadratic<Real>& quadratic, const RayPacket<Real>& rays) const
     {
-        // A light nearer than where the note's shadow rays start leaves a range that ends before it
-        // begins: nothing is in it.
-        if (closed)
+        // A light closer than the t at which the note's shadow rays start gives an interval that
+        // ends before it begins: it contains nothing.
+        if (interval == RayInterval::closed)
             return root_between(quadratic, rays.t_min, max(t_end, rays.t_min));
         std::uint32_t blocked = 0;
         visit_roots(quadratic, [&](vmask<Real> valid, const vreal<Real>& t) {
@@ -154,12 +160,12 @@ struct RayEnd {
         });
         return from_bits<Real>(blocked);
     }
-    /// A ray that runs along a plane meets it at infinity, which is not in the way.
+    /// A ray parallel to a plane hits it at infinity, which does not occlude.
     vmask<Real> blocked_at(const vreal<Real>& t, const RayPacket<Real>& rays) const
     {
         const vreal<Real> never(static_cast<Real>(__builtin_inf()));
-        return closed ? (t >= rays.t_min) & (t <= t_end) & (t < never)
-                      : (t > rays.t_min) & (t < t_end);
+        return interval == RayInterval::closed ? (t >= rays.t_min) & (t <= t_end) & (t < never)
+                                               : (t > rays.t_min) & (t < t_end);
     }
 };
 

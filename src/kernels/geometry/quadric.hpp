@@ -11,11 +11,11 @@
 #include <limits>
 #include <type_traits>
 
-// Quadrics, clipped and capped: the test, for rays from one point, too.
+// Quadrics, clipped and capped: the test, also for rays from one point.
 namespace packtrace::PACKTRACE_ISA {
 namespace {
 
-/// The part of a line between two of its points, which may be infinitely far.
+/// An interval of a line, whose ends may be infinite.
 template <class Real>
 struct LineInterval {
     vreal<Real> low, high;
@@ -27,8 +27,8 @@ inline LineInterval<Real> ordered(const vreal<Real>& a, const vreal<Real>& b)
     return {min(a, b), max(a, b)};
 }
 
-/// Where the rays are between the clipping planes, and where they cross them. A ray along them is
-/// between them all the way or nowhere.
+/// Where rays hit the clipping planes, and the interval between them. A ray parallel to the planes
+/// is between them everywhere or nowhere.
 template <class Real>
 struct ClipCrossings {
     vreal<Real> low_t, high_t;
@@ -57,17 +57,18 @@ inline ClipCrossings<Real> clip_crossings(const abi::QuadricRecord<Real>& quadri
     return clip;
 }
 
-/// The share of a t by which rounding may have a root lie beyond the plane that clips the surface
-/// there. A plane that only touches a bowl would cut a hole into it otherwise.
+/// The share of a t by which rounding may move a root past a clipping plane. Without it, a plane
+/// that only touches a bowl would cut a hole into the bowl.
 template <class Real>
 inline constexpr Real clip_slack = Real(4) * std::numeric_limits<Real>::epsilon();
-/// The same at most: a ray along a cylinder, to rounding, is nearest to the centre endlessly far
-/// off.
+/// Upper bound of that share: a ray nearly parallel to a cylinder is closest to the centre
+/// extremely far away.
 template <class Real>
 inline constexpr Real most_clip_slack = sizeof(Real) == sizeof(float) ? Real(0x1p-12)
                                                                       : Real(0x1p-20);
 
-/// How far from the t of a clipping plane a root still counts that is found from `start`.
+/// How far beyond the t of a clipping plane a root may lie and still count, if it was computed from
+/// `start`.
 template <class Real>
 inline vreal<Real> slack_at_clip(const vreal<Real>& clip_t, const vreal<Real>& start)
 {
@@ -76,10 +77,45 @@ inline vreal<Real> slack_at_clip(const vreal<Real>& clip_t, const vreal<Real>& s
                vreal<Real>(most_clip_slack<Real>) * size);
 }
 
-/// Calls `visit(valid, t, piece)` for the places where the rays cross the clipped and capped
-/// surface: piece 0 is the side, 1 and 2 the low and the high cap. A t may be infinite, and a piece
-/// may be visited twice for different lanes. Side and caps share one decision, the order of their
-/// t: at the rim a ray crosses exactly one, or, where it only touches the rim, both.
+/// An interval between clipping planes, widened by slack_at_clip().
+template <class Real>
+inline LineInterval<Real> with_slack(const LineInterval<Real>& between, const vreal<Real>& start)
+{
+    return {between.low - slack_at_clip<Real>(between.low, start),
+            between.high + slack_at_clip<Real>(between.high, start)};
+}
+
+/// Lanes in which lines have roots with the unclipped side. A line through a cone's apex has its
+/// root at the start itself (`at_start`); a line along a cylinder's axis has none.
+template <class Real>
+inline std::uint32_t lanes_with_roots(const Quadratic<Real>& side, const vmask<Real>& at_start)
+{
+    const vreal<Real> zero(Real(0));
+    return bits(side.discriminant >= zero) & ~bits(at_start & (side.a == zero)) & all_lanes<Real>;
+}
+
+/// Lanes without roots whose lines are inside the unclipped side everywhere.
+template <class Real>
+inline std::uint32_t lanes_inside(const Quadratic<Real>& side, std::uint32_t crosses)
+{
+    const vreal<Real> zero(Real(0));
+    return ~crosses & bits((side.a < zero) | ((side.a == zero) & (side.c < zero)));
+}
+
+/// Lanes in which the t of a cap lies between the two roots of the side. At the rim, a line that
+/// `enters` by the cap leaves by the side, and the reverse.
+template <class Real>
+inline std::uint32_t lanes_within(const LineInterval<Real>& side, const vreal<Real>& t,
+                                  std::uint32_t enters)
+{
+    return (enters & bits((t > side.low) & (t <= side.high))) |
+           (~enters & bits((t >= side.low) & (t < side.high)));
+}
+
+/// Calls `visit(valid, t, piece)` for the hits of lines with the clipped and capped surface. Piece
+/// 0 is the side, 1 the low cap and 2 the high cap. A t may be infinite, and a piece may be visited
+/// twice for different lanes. Side and caps share one decision, the order of their t: at the rim a
+/// line has exactly one hit, or two if it only touches the rim.
 template <class Real, class Visit>
 inline void visit_crossings(const abi::QuadricRecord<Real>& quadric,
                             const QuadricOrigin<Real>& origin, const RayPacket<Real>& rays,
@@ -90,17 +126,10 @@ inline void visit_crossings(const abi::QuadricRecord<Real>& quadric,
     const vreal<Real> zero(Real(0));
     const vreal<Real> root = with_sign_of(sqrt(max(quadratic.discriminant, zero)), quadratic.b);
     const vreal<Real> minus_q = quadratic.b + root;
-    // A ray through a cone's apex meets it at the start itself; one along a cylinder's axis
-    // nowhere.
     const auto at_start = minus_q == zero;
-    const std::uint32_t crosses = bits(quadratic.discriminant >= zero) &
-                                  ~bits(at_start & (quadratic.a == zero)) & all_lanes<Real>;
-    // Inside the unclipped surface all along.
-    const std::uint32_t never_crosses =
-        quadric.capped
-            ? ~crosses & bits((quadratic.a < zero) | ((quadratic.a == zero) & (quadratic.c < zero)))
-            : 0;
-    if ((crosses | never_crosses) == 0)
+    const std::uint32_t crosses = lanes_with_roots<Real>(quadratic, at_start);
+    const std::uint32_t inside = quadric.capped ? lanes_inside<Real>(quadratic, crosses) : 0;
+    if ((crosses | inside) == 0)
         return;
     const vreal<Real> first =
         start + select(at_start, zero, lesser_root(quadratic, root, minus_q, crosses));
@@ -111,11 +140,8 @@ inline void visit_crossings(const abi::QuadricRecord<Real>& quadric,
         return;
     }
     const ClipCrossings<Real> clip = clip_crossings<Real>(quadric, origin.height, rays.dir);
-    LineInterval<Real> kept = clip.between;
-    if (!quadric.capped) {
-        kept.low = kept.low - slack_at_clip<Real>(kept.low, start);
-        kept.high = kept.high + slack_at_clip<Real>(kept.high, start);
-    }
+    const LineInterval<Real> kept =
+        quadric.capped ? clip.between : with_slack<Real>(clip.between, start);
     const auto between = [&](const vreal<Real>& t) { return (t >= kept.low) & (t <= kept.high); };
     const auto visit_side = [&] {
         visit(from_bits<Real>(crosses & bits(between(first))), first, 0);
@@ -126,26 +152,25 @@ inline void visit_crossings(const abi::QuadricRecord<Real>& quadric,
     const LineInterval<Real> side = ordered<Real>(first, second);
     const std::uint32_t opens = bits(quadratic.a < zero);
     const std::uint32_t climbs = bits(clip.low_t <= clip.high_t);
-    // Rays come in by one cap and leave by the other. One that only touches the rim has two hits
-    // there: it comes in by one piece and leaves by the other, in this order.
-    const std::uint32_t comes_in[2] = {climbs, ~climbs};
+    // A line enters by one cap and leaves by the other. A line that only touches the rim has two
+    // hits there: it enters by one piece and leaves by the other, and visits keep this order.
+    const std::uint32_t enters[2] = {climbs, ~climbs};
     const vreal<Real> cap_t[2] = {clip.low_t, clip.high_t};
     const auto visit_cap = [&](int cap, std::uint32_t lanes_of) {
         const vreal<Real>& t = cap_t[cap];
-        const std::uint32_t within = (comes_in[cap] & bits((t > side.low) & (t <= side.high))) |
-                                     (~comes_in[cap] & bits((t >= side.low) & (t < side.high)));
-        const std::uint32_t met = lanes_of & ((crosses & (opens ^ within)) | never_crosses);
-        if (met != 0)
-            visit(from_bits<Real>(met), t, cap + 1);
+        const std::uint32_t hits =
+            lanes_of & ((crosses & (opens ^ lanes_within<Real>(side, t, enters[cap]))) | inside);
+        if (hits != 0)
+            visit(from_bits<Real>(hits), t, cap + 1);
     };
     for (int cap = 0; cap < 2; ++cap)
-        visit_cap(cap, comes_in[cap]);
+        visit_cap(cap, enters[cap]);
     visit_side();
     for (int cap = 0; cap < 2; ++cap)
-        visit_cap(cap, ~comes_in[cap]);
+        visit_cap(cap, ~enters[cap]);
 }
 
-/// A quadric seen from an origin that all rays share.
+/// A quadric for rays that share their origin.
 template <class Real>
 struct SharedOriginQuadric {
     const abi::QuadricRecord<Real>* record;
@@ -178,7 +203,7 @@ inline void visit_crossings(const SharedOriginQuadric<Real>& quadric, const RayP
     visit_crossings(*quadric.record, origin, rays, visit);
 }
 
-/// How many surfaces a quadric has: its side, and two caps where it is capped.
+/// The number of surfaces of a quadric: its side, and two caps if it is capped.
 template <class Real>
 inline int pieces_of(const abi::QuadricRecord<Real>& quadric)
 {
@@ -207,12 +232,13 @@ inline const abi::QuadricRecord<Real>& record_of(const SharedOriginQuadric<Real>
     return *quadric.record;
 }
 
-/// What rounding may do to the square of a moment, of its size, with a margin of a thousand.
+/// The rounding error of the square of a moment, as a share, with a margin of a factor of a
+/// thousand.
 template <class Real>
 inline constexpr Real moment2_slack = sizeof(Real) == sizeof(float) ? Real(2e-10) : Real(2e-27);
 
-/// The lanes whose lines come near the ball around a quadric: of the others its own test, which is
-/// dear, need not tell.
+/// The lanes whose lines pass close to the ball around a quadric. The other lanes need no test of
+/// their own, which is expensive.
 template <class Real>
 inline std::uint32_t near_ball(const abi::QuadricRecord<Real>& quadric, const RayPacket<Real>& rays)
 {
@@ -223,7 +249,7 @@ inline std::uint32_t near_ball(const abi::QuadricRecord<Real>& quadric, const Ra
     const Vec3v<Real> moment = cross(w, rays.dir);
     const vreal<Real> outer2 = madd(vreal<Real>(moment2_slack<Real>), dot(w, w),
                                     vreal<Real>(Real(1.001) * radius * radius));
-    // A NaN tells nothing.
+    // With NaN the comparison fails and the lane is kept.
     return ~bits(dot(moment, moment) > outer2 * rays.dir2) & all_lanes<Real>;
 }
 
@@ -231,7 +257,7 @@ template <class Object, class Real>
 concept IsQuadric = std::is_same_v<Object, abi::QuadricRecord<Real>> ||
     std::is_same_v<Object, SharedOriginQuadric<Real>>;
 
-/// Keeps what is closer, but for the lanes of `own`.
+/// Keeps closer hits, except in lanes that start on the quadric.
 template <class Object, class Real, class Own>
 requires IsQuadric<Object, Real>
 inline void keep_closest(HitPacket<Real>& hit, const Object& quadric, const RayPacket<Real>& rays,
@@ -244,14 +270,14 @@ inline void keep_closest(HitPacket<Real>& hit, const Object& quadric, const RayP
         return;
     visit_crossings(quadric, rays, [&](vmask<Real> valid, const vreal<Real>& t, int piece) {
         std::uint32_t counts = others & bits(valid & (t > rays.t_min));
-        // A ray that touches the rim enters by the cap where the cap was visited first.
+        // A ray that touches the rim enters by the cap if the cap was visited first.
         const std::uint32_t ties = piece == 0 ? counts & bits(t == hit.t) : 0;
         if (ties != 0)
             counts &= ~(ties & lanes_on_body<Real>(hit.surface, body.first + 1, body.pieces - 1));
         keep_closer<Real>(hit, from_bits<Real>(counts), t, body.first + piece);
     });
 }
-/// Lanes that any piece is in the way of.
+/// Lanes that any piece occludes.
 template <class Object, class Real>
 requires IsQuadric<Object, Real>
 inline std::uint32_t occluding_lanes(const RayEnd<Real>& end, const Object& quadric,

@@ -2,15 +2,15 @@
 
 #include "kernels/geometry/quadric_place.hpp"
 
-// Where rays that start on a piece of a body meet that body again, in double. That the start is on
-// the piece is known, whatever rounding made of the point: along the ray the side has a root at 0,
-// the start is between the planes that clip, and at a cap it is inside the side. So every ray that
-// enters a capped body leaves it, however near to a rim it starts; one that leaves it where it
-// starts does so at the least number above 0.
+// Where rays that start on one piece of a quadric hit that quadric again, in double. The start is
+// known to be on the piece, whatever rounding did to the point: the side has a root at 0 along the
+// ray, the start is between the clipping planes, and on a cap it is inside the side. So every ray
+// that enters a capped quadric leaves it, however close to a rim it starts; a ray that leaves it
+// where it starts does so at the smallest number above 0.
 namespace packtrace::PACKTRACE_ISA {
 namespace {
 
-/// The crossings ahead in their order: two of the side at most, then one of a cap.
+/// The hits ahead in their order: at most two with the side, then one with a cap.
 struct CrossingsAhead {
     vreal<double> side[2];
     vreal<double> cap;
@@ -19,7 +19,7 @@ struct CrossingsAhead {
     std::uint32_t cap_is_high;
 };
 
-/// The first of them beyond t_min.
+/// The first of these hits beyond t_min.
 inline OwnCrossing first_of(const CrossingsAhead& ahead, const vreal<double>& t_min)
 {
     const vreal<double> never(__builtin_inf());
@@ -40,22 +40,22 @@ inline OwnCrossing first_of(const CrossingsAhead& ahead, const vreal<double>& t_
     return first;
 }
 
-/// A gradient as many times as large is much steeper.
+/// A gradient that is longer by this factor is much steeper.
 inline constexpr double much_steeper = 4.0;
 
-/// After the first step of Newton's, which leaves at most this of the distance, as many more leave
-/// less than double tells.
+/// If the first Newton step reduces the distance to at most this share, as many further steps
+/// reduce it below the resolution of double.
 inline constexpr double nearer_by_step = 0x1p-4;
 inline constexpr int further_steps = 3;
 
-/// Where rays start, and the lanes in which that is a point of the side but for double's rounding.
+/// Where rays start, and the lanes in which that point is on the side up to the rounding of double.
 struct SideStart {
     Vec3v<double> p;
     std::uint32_t on_side = 0;
 };
 
-/// The point of the side next to `p`, which is near it; p itself where it is not near by the size
-/// of the body.
+/// The point of the side closest to `p`, if p is close to the side; p itself if it is not, measured
+/// by the size of the quadric.
 inline SideStart next_on_side(const abi::QuadricRecord<double>& quadric, const Vec3v<double>& p,
                               vmask<double> wanted)
 {
@@ -76,14 +76,14 @@ inline SideStart next_on_side(const abi::QuadricRecord<double>& quadric, const V
     return {select(moves, next, p), bits(moves)};
 }
 
-/// Where on the side rays start whose start, as rounded, is `p`: as a rule p itself, as if it were
-/// on the side. The rays' other end, `far_t` away, then has the same value of the equation, and is
-/// further off the side than p is as the equation is less steep there. Where it is much less, as
-/// next to a cone's apex, they start from the point of the side next to p.
+/// Where on the side rays start whose rounded start is `p`. As a rule this is p itself, treated as
+/// on the side. The equation has the same value at the rays' other root, `far_t` away, and the
+/// flatter it is there, the further that point is off the side. Where it is much flatter, as next
+/// to a cone's apex, rays start from the point of the side closest to p.
 inline SideStart start_on_side(const abi::QuadricRecord<double>& quadric, const Vec3v<double>& p,
                                const Vec3v<double>& v, const vreal<double>& far_t)
 {
-    // Their gradient is not that of one equation, and as steep everywhere.
+    // The gradient of two planes is not that of one equation, and is as steep everywhere.
     if (crossing_planes(quadric))
         return {p};
     const Vec3v<double> here = side_gradient<double>(quadric, p);
@@ -93,9 +93,10 @@ inline SideStart start_on_side(const abi::QuadricRecord<double>& quadric, const 
     return none(flatter) ? SideStart{p} : next_on_side(quadric, p, flatter);
 }
 
-/// How far rounding of the start, where the equation's left side is 0 but for that, moves the
-/// side's `root` past the plane that clips it. One that only touches a bowl would cut a hole into
-/// it; with caps the order of side and caps decides.
+/// How far rounding of the start may move the side's `root` past a clipping plane. It is measured
+/// by the value of the equation at the start, which is 0 up to rounding. Without it, a plane that
+/// only touches a bowl would cut a hole into the bowl. With caps it is 0: there the order of side
+/// and caps decides.
 inline vreal<double> place_error(const abi::QuadricRecord<double>& quadric, const SideStart& start,
                                  const SurfaceLine& line, const vreal<double>& root)
 {
@@ -108,7 +109,7 @@ inline vreal<double> place_error(const abi::QuadricRecord<double>& quadric, cons
                   min(moved, vreal<double>(0x1p-10) * size));
 }
 
-/// From a point of a quadric's side.
+/// Where rays from a point of the side hit the quadric again.
 inline OwnCrossing crossing_from_side(const abi::QuadricRecord<double>& quadric,
                                       const Vec3v<double>& point, const Vec3v<double>& dir,
                                       const vreal<double>& t_min, vmask<double> outside)
@@ -124,7 +125,7 @@ inline OwnCrossing crossing_from_side(const abi::QuadricRecord<double>& quadric,
     const SideStart start = start_on_side(quadric, rounded, v, other_root(line, outside));
     line.slope = slope_at(start.p);
     vreal<double> root = other_root(line, outside);
-    // Of rays that pass an apex, slope and bend have lost digits that the surface there has.
+    // For rays that pass an apex, slope and bend have lost digits that the surface there has.
     if (start.on_side != 0)
         for (int i = 0; i < 2; ++i)
             root = select(from_bits<double>(start.on_side),
@@ -137,9 +138,10 @@ inline OwnCrossing crossing_from_side(const abi::QuadricRecord<double>& quadric,
     const vreal<double> out =
         select(climb == zero, vreal<double>(__builtin_inf()),
                max(select(from_bits<double>(climbs), clip.high_t, clip.low_t), zero));
-    // The inside is ahead up to the other root where the surface bends away, beyond it where the
-    // surface bends towards rays outside. A ray that leaves across the gradient, as every ray from
-    // a cone's apex, goes on in the inside where the surface bends towards it.
+    // If the surface bends away from the ray, the ray is inside up to the other root; if it bends
+    // towards a ray outside, the ray is inside beyond the other root. A ray that leaves across the
+    // gradient, as every ray from a cone's apex does, continues inside if the surface bends towards
+    // it.
     const std::uint32_t bends_away = bits(line.bend > zero) & ~bits(outside);
     const std::uint32_t bends_towards = bits(line.bend < zero) & bits(root > zero) & bits(outside);
     const std::uint32_t by_side =
@@ -149,7 +151,7 @@ inline OwnCrossing crossing_from_side(const abi::QuadricRecord<double>& quadric,
     return first_of({{root, root}, out, {by_side, 0}, ends_inside, climbs}, t_min);
 }
 
-/// From a point of a cap into the body.
+/// Where rays from a point of a cap that enter the quadric hit it again.
 inline OwnCrossing crossing_from_cap(const abi::QuadricRecord<double>& quadric, bool from_low,
                                      const Vec3v<double>& point, const Vec3v<double>& dir,
                                      const vreal<double>& t_min)
@@ -171,8 +173,8 @@ inline OwnCrossing crossing_from_cap(const abi::QuadricRecord<double>& quadric, 
     const std::uint32_t along = bits(at_start & (side.a == zero));
     const std::uint32_t opens = bits(side.a < zero);
     const std::uint32_t gap = opens & bits(side.discriminant >= zero);
-    // Of a body of two halves the gap between them is ahead, or just behind where rounding put the
-    // start into its nearer half.
+    // A quadric of two halves has a gap between them. It is ahead, or just behind if rounding put
+    // the start into the half that is closer.
     const std::uint32_t before_gap =
         gap & bits(between.high > zero) & bits(between.low > negated(between.high));
     const vreal<double> leaves =
@@ -191,8 +193,9 @@ inline HitAgain hit_again(const abi::QuadricRecord<double>& quadric, unsigned pi
                                                                : HitAgain::from_anywhere;
 }
 
-/// Lanes whose line the side surely bends away from: rays that leave its outer side don't meet it
-/// again. v is off by five roundings of the rows' lengths, a sum of squares by five more.
+/// Lanes in which the side certainly bends away from the line: rays that leave on the outer side do
+/// not hit it again. v is off by five roundings of the rows' lengths, a sum of squares by five
+/// more.
 template <class Real>
 inline std::uint32_t bends_away(const abi::QuadricRecord<double>& quadric, const Vec3v<Real>& dir)
 {
@@ -204,8 +207,8 @@ inline std::uint32_t bends_away(const abi::QuadricRecord<double>& quadric, const
     return bits(bend > max(slack * dot(dir, dir), smallest));
 }
 
-/// Lanes whose ways from inside have crossed the gap between the two halves of a body before
-/// `place`, which is inside: there the equation has a largest value along them, and falls.
+/// Lanes whose lines from inside have crossed the gap between the two halves of a quadric before
+/// `place`, which is inside: the equation has a maximum along such a line, and falls at `place`.
 inline std::uint32_t past_gap(const abi::QuadricRecord<double>& quadric, const Vec3v<double>& place,
                               const Vec3v<double>& way)
 {

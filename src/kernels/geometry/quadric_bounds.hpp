@@ -3,19 +3,19 @@
 #include "kernels/geometry/ball_filter.hpp"
 #include "kernels/geometry/quadric.hpp"
 
-// A quadric with the error bounds of the rays of one group.
+// A quadric with the error bounds for a set of rays.
 namespace packtrace::PACKTRACE_ISA {
 namespace {
 
-/// A quadric for the origins of one group.
+/// A quadric for a set of ray origins.
 struct QuadricFilter {
     const abi::QuadricRecord<float>* record;
     const abi::QuadricRecord<double>* wide;
     Body body;
     float p[3];                ///< a shared origin in canonical space, rounded once from double
-    float height;              ///< and in the space that clipping goes by
-    BallFilter ball;           ///< around it; infinite for an unbounded quadric
-    float discriminant_error;  ///< at most, per d·d, of rays that come near the ball
+    float height;              ///< its height in the space that clipping uses
+    BallFilter ball;           ///< ball around it; infinite for an unbounded quadric
+    float discriminant_error;  ///< upper bound, per d·d, for rays that pass close to the ball
     float slope_error;         ///< of b, per |d|
     float bend_error;          ///< of a, per d·d
     float climb_error;         ///< of a height, per |d| and t
@@ -33,19 +33,21 @@ inline float product_error(float x, float dx, float y, float dy)
     return x * dy + y * dx + dx * dy + roundoffs(9.0f) * x * y;
 }
 
-/// Bounds below this may have lost terms to underflow, and say nothing.
+/// Bounds below this may have lost terms to underflow, and are not used.
 inline constexpr float smallest_error = 0x1p-90f;
 
-/// The distance from any origin to a place, at most.
+/// Upper bound of the distance from any origin to a point; `distance` is that of the origins'
+/// centre.
 inline float reach_of(const Origins& origins, double distance)
 {
     return (static_cast<float>(distance) + origins.radius) * inflation;
 }
 
-/// Lengths that enter the bounds.
+/// Lengths in the error bounds.
 struct QuadricLengths {
-    float reach;    ///< from the centre to any origin, at most
-    float passing;  ///< from the centre to any ray that comes near the ball, at most
+    float reach;    ///< upper bound of the distance from the centre to any origin
+    float passing;  ///< upper bound of the distance from the centre to any ray that passes close to
+                    ///< the ball
 };
 
 inline QuadricLengths lengths_of(const QuadricFilter& filter, const Origins& origins,
@@ -57,10 +59,10 @@ inline QuadricLengths lengths_of(const QuadricFilter& filter, const Origins& ori
     return {reach, min(reach, near_ball)};
 }
 
-/// What v is off by, per |d| and length of a row.
+/// Error of v, per |d| and length of a row.
 inline constexpr float dir_error = roundoffs(4.2f);
 
-/// By the largest |v| and |m| = |p × v| there are.
+/// The error of the discriminant, for the largest |v| and |m| = |p × v|.
 inline float discriminant_error(const abi::QuadricRecord<float>& quadric,
                                 const QuadricLengths& lengths)
 {
@@ -73,7 +75,7 @@ inline float discriminant_error(const abi::QuadricRecord<float>& quadric,
            inflation;
 }
 
-/// The errors of what tells where along a ray the unclipped side is, at most.
+/// Sets the error bounds of the terms that locate the unclipped side along a ray.
 inline void set_range_errors(QuadricFilter& filter, const QuadricLengths& lengths)
 {
     const abi::QuadricRecord<float>& quadric = *filter.record;
@@ -85,7 +87,8 @@ inline void set_range_errors(QuadricFilter& filter, const QuadricLengths& length
     filter.bend_error = quadric.bend_size * square_error(1.0f, dir_error) * inflation;
 }
 
-/// Those of heights, `reach` being from where they begin to any origin, at most.
+/// Sets the error bounds of heights; `reach` is an upper bound of the distance from the origin of
+/// heights to any ray origin.
 inline void set_clip_errors(QuadricFilter& filter, float reach)
 {
     const abi::QuadricRecord<float>& quadric = *filter.record;
@@ -102,7 +105,7 @@ inline void set_clip_errors(QuadricFilter& filter, float reach)
     filter.inner_high = has_high ? moved(quadric.clip_high, -1.0f) : quadric.clip_high;
 }
 
-template <bool Shared>
+template <Origin O>
 [[gnu::noinline]] QuadricFilter certain_form(const abi::QuadricRecord<float>& record,
                                              const abi::QuadricRecord<double>& wide,
                                              const Origins& origins)
@@ -111,7 +114,7 @@ template <bool Shared>
     filter.record = &record;
     filter.wide = &wide;
     filter.body = body_of(record);
-    filter.ball = ball_filter<Shared>(wide.bound, record.bound_radius, origins);
+    filter.ball = ball_filter<O>(wide.bound, record.bound_radius, origins);
     double w[3];
     double distance2 = 0;
     double height = 0;
@@ -123,7 +126,7 @@ template <bool Shared>
         height += wide.clip[axis] * above_base;
         above_base2 += above_base * above_base;
     }
-    for (int axis = 0; Shared && axis < 3; ++axis)
+    for (int axis = 0; O == Origin::shared && axis < 3; ++axis)
         filter.p[axis] =
             static_cast<float>(wide.inverse[axis][0] * w[0] + wide.inverse[axis][1] * w[1] +
                                wide.inverse[axis][2] * w[2]);

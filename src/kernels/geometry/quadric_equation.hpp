@@ -6,16 +6,16 @@
 
 #include <type_traits>
 
-// The equation of a quadric's unclipped side after the inverse transform (abi::QuadricRecord), and
-// along rays.
+// The equation of a quadric's unclipped side in canonical space, after the inverse transform
+// (abi::QuadricRecord), and along rays.
 namespace packtrace::PACKTRACE_ISA {
 namespace {
 
-/// What a quadric needs to know of a ray's origin, in the quadric's canonical space.
+/// A ray's origin in the quadric's canonical space.
 template <class Real>
 struct QuadricOrigin {
     Vec3v<Real> p;
-    vreal<Real> height;  ///< in the space that clipping goes by
+    vreal<Real> height;  ///< height in the space that clipping uses
 };
 
 template <class Real>
@@ -25,7 +25,7 @@ inline Vec3v<Real> apply_inverse(const abi::QuadricRecord<Real>& quadric, const 
             dot(broadcast(quadric.inverse[2]), v)};
 }
 
-/// The same by the record in double, in either precision.
+/// The same with the record in double, in either precision.
 template <class Real>
 inline Vec3v<Real> apply_inverse_as(const abi::QuadricRecord<double>& quadric, const Vec3v<Real>& v)
 {
@@ -34,8 +34,8 @@ inline Vec3v<Real> apply_inverse_as(const abi::QuadricRecord<double>& quadric, c
             dot(broadcast_as<Real>(quadric.inverse[2]), v)};
 }
 
-/// A place of a record is subtracted in two parts, so that what is far from the origin keeps its
-/// digits. In double it has one.
+/// The origin relative to a point of a record. In single precision the point is subtracted in two
+/// parts, so that far objects keep their digits.
 template <class Real>
 inline Vec3v<Real> from_place(const Vec3v<Real>& org, const Real (&place)[3],
                               const Real (&place_low)[3])
@@ -55,7 +55,7 @@ inline QuadricOrigin<Real> quadric_origin(const abi::QuadricRecord<Real>& quadri
     return origin;
 }
 
-/// The left side of the equation at p.
+/// The value of the equation's left side at p.
 template <class Real>
 inline vreal<Real> quadric_value(const abi::QuadricRecord<Real>& quadric, const Vec3v<Real>& p)
 {
@@ -64,9 +64,9 @@ inline vreal<Real> quadric_value(const abi::QuadricRecord<Real>& quadric, const 
     return madd(linear + linear, p.z, dot(squares, p)) + vreal<Real>(quadric.constant);
 }
 
-/// The discriminant by the moment m = p × v (Lagrange's identity), in which no term of the origin's
-/// distance cancels, and which is never negative where no real ray can miss, as with crossing
-/// planes: -k a - Σ s_j s_k m_i² + 2 l (s1 v_y m_x - s0 v_x m_y) + l² v_z².
+/// The discriminant computed from the moment m = p × v (Lagrange's identity): -k a - Σ s_j s_k m_i²
+/// + 2 l (s1 v_y m_x - s0 v_x m_y) + l² v_z². No term of the origin's distance cancels, and it is
+/// never negative where no real line can miss, as with intersecting planes.
 template <class Real, class Stored>
 inline vreal<Real> quadric_discriminant(const abi::QuadricRecord<Stored>& quadric,
                                         const Vec3v<Real>& m, const Vec3v<Real>& v,
@@ -82,7 +82,7 @@ inline vreal<Real> quadric_discriminant(const abi::QuadricRecord<Stored>& quadri
     return madd(l + l, turn, msub(lifted, lifted, madd(constant, a, squares)));
 }
 
-/// How large the terms are that cancel in the left side of the equation at p.
+/// The magnitude of the terms that cancel in the equation's left side at p.
 template <class Real>
 inline vreal<Real> value_size(const abi::QuadricRecord<Real>& quadric, const Vec3v<Real>& p)
 {
@@ -91,9 +91,9 @@ inline vreal<Real> value_size(const abi::QuadricRecord<Real>& quadric, const Vec
            abs(vreal<Real>(quadric.constant));
 }
 
-/// The coefficient of t² along v in canonical space, `scaled` being v times the squares. What is no
-/// more than its own rounding, or than what v is off by where the axes are turned, is 0: the ray
-/// runs along a generator or an asymptote.
+/// The coefficient of t² along v in canonical space; `scaled` is v times the squares. It is set to
+/// 0 where it is no larger than its own rounding error, or than the error of v where the axes are
+/// turned: the ray is parallel to a generator or an asymptote.
 template <class Real>
 inline vreal<Real> bend_along(const abi::QuadricRecord<Real>& quadric, const Vec3v<Real>& scaled,
                               const Vec3v<Real>& v, const Vec3v<Real>& dir)
@@ -110,15 +110,15 @@ inline vreal<Real> bend_along(const abi::QuadricRecord<Real>& quadric, const Vec
     return select(abs(bend) <= slack, vreal<Real>(Real(0)), bend);
 }
 
-/// The ray p + t v in canonical space against the unclipped side, from `start` along it: mostly the
-/// ray's point nearest to the centre, where no term is larger than it must be.
+/// The ray p + t v in canonical space against the unclipped side, as a quadratic from `start` on.
+/// The start is mostly the ray's point closest to the centre, where the terms are smallest.
 template <class Real>
 struct SideQuadratic {
     Quadratic<Real> from_start;
     vreal<Real> start;
 };
 
-/// Whether a quadric is two planes that cross: s_i x_i² + s_j x_j² = 0.
+/// Whether a quadric is two planes that intersect: s_i x_i² + s_j x_j² = 0.
 template <class Real>
 inline bool crossing_planes(const abi::QuadricRecord<Real>& quadric)
 {
@@ -127,8 +127,8 @@ inline bool crossing_planes(const abi::QuadricRecord<Real>& quadric)
     return quadric.constant == 0 && quadric.linear == 0 && flat == 1;
 }
 
-/// How large the terms are that cancel in b² - a c, by the sizes of what cancels in each of a, b
-/// and c, and in what quadric_discriminant() gives.
+/// The magnitude of the terms that cancel in b² - a c, including those that cancel within a, b and
+/// c, and of the terms that cancel in quadric_discriminant().
 template <class Real>
 struct DiscriminantSizes {
     vreal<Real> by_terms, by_moment;
@@ -159,12 +159,13 @@ inline DiscriminantSizes<Real> discriminant_sizes(const abi::QuadricRecord<Real>
     return sizes;
 }
 
-/// The side's quadratic of rays that nearly run along an asymptote, or along a straight line of the
-/// surface. a is 0 there but for what cancels in it. The discriminant is b² or next to it, far
-/// below the terms that cancel in what the moment gives, of which rounding would be left: b² - a c
-/// is taken where it is off by less. Going from p to the nearest point rounds p, and b may be far
-/// below that: b is made of p itself, and c is from where its terms are smaller. Of vectors in
-/// registers, and not inlined, so that other rays don't pay for it.
+/// The quadratic of rays nearly parallel to an asymptote, or to a straight line on the surface.
+/// There the terms of a cancel to nearly 0, and the discriminant is close to b², far below the
+/// terms that cancel in quadric_discriminant(): only rounding error would be left. So b² - a c is
+/// used where its error is smaller. Moving from p to the closest point rounds p, and b may be far
+/// smaller than that error: b is computed at p itself, and c where its terms are smaller. The
+/// parameters are in registers and the function is not inlined, so that other rays do not pay for
+/// it.
 template <class Real>
 [[gnu::noinline]] SideQuadratic<Real> asymptotic_quadratic(const abi::QuadricRecord<Real>& quadric,
                                                            vreal<Real> px, vreal<Real> py,
@@ -188,7 +189,7 @@ template <class Real>
     q.c = quadric_value<Real>(quadric, at);
     const auto sizes = discriminant_sizes<Real>(quadric, side, p, at, v);
     auto by_terms = a == zero;
-    // What two planes have is a square, which is never negative.
+    // The discriminant of two planes is a square, and never negative.
     if (!crossing_planes(quadric))
         by_terms = by_terms | (vreal<Real>(Real(4)) * sizes.by_terms < sizes.by_moment);
     q.discriminant = select(by_terms, msub(q.b, q.b, a * q.c),
@@ -196,8 +197,9 @@ template <class Real>
     return side;
 }
 
-/// Where a ray is nearest to the centre, in the axes that the equation has: far along a cylinder is
-/// no distance. 0 where the ray starts on the very surface, so that its root there is 0, too.
+/// The t at which a ray is closest to the centre, measured along the axes that occur in the
+/// equation: a distance along a cylinder does not count. 0 where the ray starts exactly on the
+/// surface, so that its root there is 0 too.
 template <class Real>
 inline vreal<Real> nearest_to_center(const abi::QuadricRecord<Real>& quadric, const Vec3v<Real>& p,
                                      const Vec3v<Real>& v)

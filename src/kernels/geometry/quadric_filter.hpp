@@ -4,8 +4,8 @@
 #include "kernels/geometry/quadric_place.hpp"
 #include "kernels/geometry/quadric_roots.hpp"
 
-// Quadrics for rays in single precision: what bounds tell for sure, and behind it the test in
-// double, two half packets at a time.
+// Quadrics for rays in single precision: the tests with error bounds, and for lanes that they
+// cannot decide the test in double, by half packets.
 namespace packtrace::PACKTRACE_ISA {
 namespace {
 
@@ -14,17 +14,17 @@ inline Body body_of(const QuadricFilter& quadric)
     return quadric.body;
 }
 
-/// What is asked of a quadric.
+/// What a test of a quadric searches for.
 enum class QuadricQuery { closest, occlusion };
 
-/// What single precision tells of some lanes.
+/// The result of the test in single precision.
 struct QuadricCrossing {
-    std::uint32_t crossed = 0;  ///< lanes that surely cross it between t_min and t_end
-    std::uint32_t left = 0;     ///< other lanes that may, in double to be looked at
-    vreal<float> low, high;     ///< of closest hits, where the lanes of `crossed` first do so
+    std::uint32_t crossed = 0;  ///< lanes that certainly hit it between t_min and t_end
+    std::uint32_t left = 0;     ///< other lanes that may; they are tested in double
+    vreal<float> low, high;     ///< for closest hits: where the lanes of `crossed` hit it first
 };
 
-/// Of the lanes of `near`, by their two roots.
+/// Decides lanes of `near` by their two roots.
 template <QuadricQuery Query>
 inline void cross_by_roots(QuadricCrossing& crossing, const QuadricFilter& filter,
                            const SideRoots& roots, const ClipHeights& heights,
@@ -34,7 +34,7 @@ inline void cross_by_roots(QuadricCrossing& crossing, const QuadricFilter& filte
     const bool capped = filter.record->capped;
     const SideRoot first =
         side_root(filter, heights, roots.low, roots.low + roots.width, t_min, t_end);
-    // Rays come into a body with caps by the first root, if that is between the planes.
+    // A ray enters a capped quadric by the first root, if that is between the planes.
     const std::uint32_t enters = wants_first && capped ? roots.convex : roots.crosses;
     crossing.crossed = near & roots.crosses & enters & first.counts;
     crossing.low = first.low;
@@ -57,12 +57,12 @@ inline void cross_by_roots(QuadricCrossing& crossing, const QuadricFilter& filte
         crossing.left &= ~(open & first.gone & second.gone);
 }
 
-template <QuadricQuery Query, bool Shared>
+template <QuadricQuery Query, Origin O>
 [[gnu::noinline]] QuadricCrossing crossing_of(const QuadricFilter& filter,
                                               const RayPacket<float>& rays, const RayScale& scale,
                                               const vreal<float>& t_end, std::uint32_t near)
 {
-    const QuadricLine line = line_of<Shared>(filter, rays);
+    const QuadricLine line = line_of<O>(filter, rays);
     QuadricCrossing crossing;
     near &= ~surely_misses(filter, line, rays);
     if (near == 0)
@@ -80,20 +80,19 @@ template <QuadricQuery Query, bool Shared>
     return crossing;
 }
 
-/// The same of the lanes whose rays do not start on the quadric's body.
-template <QuadricQuery Query, bool Shared, class Own>
+/// The same, without the lanes whose rays start on the quadric.
+template <QuadricQuery Query, Origin O, class Own>
 inline QuadricCrossing certain_crossing(const QuadricFilter& filter, const RayPacket<float>& rays,
                                         const RayScale& scale, const vreal<float>& t_end,
                                         const Own& own)
 {
     const std::uint32_t near =
-        others_near_ball<Shared>(filter.ball, filter.body, rays, scale, t_end, own);
-    return near == 0 ? QuadricCrossing{}
-                     : crossing_of<Query, Shared>(filter, rays, scale, t_end, near);
+        others_near_ball<O>(filter.ball, filter.body, rays, scale, t_end, own);
+    return near == 0 ? QuadricCrossing{} : crossing_of<Query, O>(filter, rays, scale, t_end, near);
 }
 
-/// Where half a packet crosses a quadric beyond t_min: roots 0 and 1 are the side's, 2 and 3 the
-/// caps'.
+/// The hits of half a packet with a quadric beyond t_min. Roots 0 and 1 are those of the side, 2
+/// and 3 those of the caps.
 struct HalfCrossings {
     vreal<double> t[4] = {vreal<double>(0.0), vreal<double>(0.0), vreal<double>(0.0),
                           vreal<double>(0.0)};
@@ -114,7 +113,8 @@ struct HalfCrossings {
     return result;
 }
 
-/// Calls `visit(lanes, low, high, piece)` for the crossings beyond t_min of the lanes of `active`.
+/// Calls `visit(lanes, low, high, piece)` for the hits beyond t_min of the lanes of `active`, found
+/// in double.
 template <class Visit>
 inline void visit_in_double(const abi::QuadricRecord<double>& quadric, const RayPacket<float>& rays,
                             std::uint32_t active, const Visit& visit)
@@ -134,13 +134,13 @@ inline void visit_in_double(const abi::QuadricRecord<double>& quadric, const Ray
     }
 }
 
-/// What may hit, and where is not certain, is tested in double.
-template <bool Shared, class Own>
+/// Lanes that may hit, but are not certain, are tested in double.
+template <Origin O, class Own>
 inline void keep_certain(HitPacket<float>& hit, const QuadricFilter& filter,
                          const RayPacket<float>& rays, const RayScale& scale, const Own& own)
 {
     const QuadricCrossing crossing =
-        certain_crossing<QuadricQuery::closest, Shared>(filter, rays, scale, hit.t, own);
+        certain_crossing<QuadricQuery::closest, O>(filter, rays, scale, hit.t, own);
     const std::int32_t side = filter.record->surface;
     if (crossing.crossed != 0)
         keep_sure(hit, from_bits<float>(crossing.crossed), crossing.low, crossing.high, side);
@@ -153,13 +153,13 @@ inline void keep_certain(HitPacket<float>& hit, const QuadricFilter& filter,
         });
 }
 
-/// What any piece does to the lanes that do not start on it.
-template <bool Shared, class Own>
+/// The lanes that any piece occludes, without those that start on the quadric.
+template <Origin O, class Own>
 inline Occlusion occludes(const QuadricFilter& filter, const RayPacket<float>& rays,
                           const RayScale& scale, const vreal<float>& t_end, const Own& own)
 {
     const QuadricCrossing crossing =
-        certain_crossing<QuadricQuery::occlusion, Shared>(filter, rays, scale, t_end, own);
+        certain_crossing<QuadricQuery::occlusion, O>(filter, rays, scale, t_end, own);
     Occlusion result{crossing.crossed, 0};
     if (crossing.left == 0)
         return result;
@@ -174,8 +174,9 @@ inline Occlusion occludes(const QuadricFilter& filter, const RayPacket<float>& r
     return result;
 }
 
-/// The kind (kinds.hpp).
-struct Quadric : KindOf<abi::Primitive::quadric, abi::SurfaceKind::quadric_side, 3, true> {
+/// The kind, see kinds.hpp.
+struct Quadric
+    : KindOf<abi::Primitive::quadric, abi::SurfaceKind::quadric_side, 3, CompiledFor::quadrics> {
     template <class Real>
     using FromPoint = ObjectArray<SharedOriginQuadric<Real>>;
     template <class Real>

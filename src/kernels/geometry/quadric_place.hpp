@@ -2,11 +2,11 @@
 
 #include "kernels/geometry/quadric.hpp"
 
-// The place of a hit on a quadric, whose shape in double is the record itself.
+// The point and normal of a hit on a quadric. The shape in double is the record itself.
 namespace packtrace::PACKTRACE_ISA {
 namespace {
 
-/// A covector of canonical space in the world.
+/// Transforms a covector from canonical space to the world.
 template <class Real>
 inline Vec3v<Real> apply_transposed(const abi::QuadricRecord<double>& quadric, const Vec3v<Real>& g)
 {
@@ -15,8 +15,8 @@ inline Vec3v<Real> apply_transposed(const abi::QuadricRecord<double>& quadric, c
                                  scale<Real>(g.z, broadcast_as<Real>(quadric.inverse[2]))));
 }
 
-/// The gradient of two planes that cross is that of one of them, and of no other direction however
-/// near to their edge: |s_i| x_i² = |s_j| x_j² there.
+/// The gradient of two planes that intersect: the gradient of one of the planes, and no direction
+/// between, however close to their edge. There |s_i| x_i² = |s_j| x_j².
 template <class Real>
 inline Vec3v<Real> plane_gradient(const abi::QuadricRecord<double>& quadric, const Vec3v<Real>& p)
 {
@@ -30,7 +30,7 @@ inline Vec3v<Real> plane_gradient(const abi::QuadricRecord<double>& quadric, con
                   component(quadric.square[2], p.z)});
 }
 
-/// Of the side, at a point given in canonical space.
+/// The gradient of the side at a point in canonical space.
 template <class Real>
 inline Vec3v<Real> side_gradient(const abi::QuadricRecord<double>& quadric, const Vec3v<Real>& p)
 {
@@ -41,7 +41,7 @@ inline Vec3v<Real> side_gradient(const abi::QuadricRecord<double>& quadric, cons
     return apply_transposed<Real>(quadric, g);
 }
 
-/// The same at a point of the world.
+/// The same at a point in world space.
 template <class Real>
 inline Vec3v<Real> side_gradient_at(const abi::QuadricRecord<double>& quadric,
                                     const Vec3v<Real>& point)
@@ -57,7 +57,7 @@ inline Vec3v<Real> cap_gradient(const abi::QuadricRecord<double>& quadric, bool 
     return scale<Real>(sign, broadcast_as<Real>(quadric.clip));
 }
 
-/// Piece 0 is the side, 1 and 2 the low and the high cap.
+/// Piece 0 is the side, 1 the low cap and 2 the high cap.
 template <class Real>
 inline Vec3v<Real> unit_normal(const abi::QuadricRecord<double>& quadric, unsigned piece,
                                const Vec3v<Real>& point, const Vec3v<Real>& dir)
@@ -67,8 +67,8 @@ inline Vec3v<Real> unit_normal(const abi::QuadricRecord<double>& quadric, unsign
                                  dir);
 }
 
-/// Infinite off two planes that cross, whose gradient is not that of one equation: on which side a
-/// point is counts all the same.
+/// The height of a point over a piece. Infinite for two planes that intersect, except on them,
+/// because their gradient is not that of one equation; the sign is right.
 inline vreal<double> height_over(const abi::QuadricRecord<double>& quadric, unsigned piece,
                                  const Vec3v<double>& point)
 {
@@ -87,14 +87,14 @@ inline vreal<double> height_over(const abi::QuadricRecord<double>& quadric, unsi
     return vreal<double>(0.5) * value / sqrt(dot(gradient, gradient));
 }
 
-/// What a residual may be off by, of the size of its terms.
+/// The rounding error of a residual, as a share of its terms.
 constexpr double residual_slack = 0x1p-50;
 
-/// A root of the side, one step of Newton's nearer, where that leads to no other root, and where
-/// the residual is more than its own rounding: of rays that nearly run along the surface the
-/// discriminant loses digits that the equation has. The residual is that of the point p + t v
-/// itself. Taken from a place far from the hit, as the point nearest to the centre is on long
-/// hyperboloids, its terms would be larger, and lose more than is gained.
+/// A root of the side, improved by one Newton step: for rays nearly parallel to the surface the
+/// discriminant loses digits that the equation keeps. The step is taken only if it leads to no
+/// other root, and if the residual is larger than its rounding error. The residual is that of the
+/// point p + t v itself. From a start far from the hit, as the point closest to the centre is on
+/// long hyperboloids, its terms would be larger and lose more digits than the step gains.
 inline vreal<double> bettered(const abi::QuadricRecord<double>& quadric, const Vec3v<double>& p,
                               const Vec3v<double>& v, const vreal<double>& t,
                               const vreal<double>& t_min)
@@ -110,7 +110,7 @@ inline vreal<double> bettered(const abi::QuadricRecord<double>& quadric, const V
     return select(near & tells & (better > t_min), better, t);
 }
 
-/// The first of the crossings of one piece.
+/// The first hit with one piece.
 [[gnu::noinline]] inline RefinedHalf refine(const abi::QuadricRecord<double>& quadric,
                                             unsigned wanted, const RayPacket<double>& rays)
 {
@@ -134,7 +134,7 @@ inline vreal<double> bettered(const abi::QuadricRecord<double>& quadric, const V
     return hit;
 }
 
-/// A piece of a quadric, for one step of Newton's from the root next to what the search found.
+/// A piece of a quadric, for one Newton step from the root next to the one that the search found.
 struct QuadricForm {
     static constexpr bool root_is_known = true;
 
@@ -143,7 +143,7 @@ struct QuadricForm {
     vreal<float> found;
 };
 
-/// What two planes that cross have for a gradient is no polynomial.
+/// The gradient of two planes that intersect is not that of a polynomial.
 inline bool has_form(const abi::QuadricRecord<double>& quadric, unsigned piece)
 {
     return piece != 0 || !crossing_planes(quadric);
@@ -167,10 +167,10 @@ inline Vec3v<float> rough_origin(const abi::QuadricRecord<double>& quadric, cons
     return apply_inverse_as<float>(quadric, from_place<float>(org, high, low));
 }
 
-/// The side's root next to what the search found, of the ray and the quadric alone, so that
-/// Newton's step has the same bits whatever found the hit, and in whatever precision. A NaN where
-/// the other root is not further away by far. Caps are found in double alone, and so the same by
-/// all.
+/// The side's root closest to the one that the search found. It depends on the ray and the quadric
+/// only, so a Newton step from it has the same bits whichever search found the hit, in either
+/// precision. NaN where the other root is not much further away. Caps are found in double only, so
+/// the root that the search found is used as it is.
 inline RoughRoot rough_root(const QuadricForm& form, const RayPacket<float>& rays)
 {
     if (form.piece != 0)
@@ -190,7 +190,7 @@ inline RoughRoot rough_root(const QuadricForm& form, const RayPacket<float>& ray
     return {select(next, t, vreal<float>(__builtin_nanf(""))), a};
 }
 
-/// The residual of half a packet, in double, and how large its terms are.
+/// The residual of half a packet in double, and the magnitude of its terms.
 struct WideResidual {
     vreal<double> value;
     vreal<double> size;
@@ -217,12 +217,12 @@ inline WideResidual residual(const QuadricForm& form, const Vec3v<double>& org,
             gradient};
 }
 
-/// A step by a residual off by residual_slack is off by 2^-29 of t where the size of its terms is
-/// below this times the slope and t.
+/// With a residual that is off by residual_slack, a Newton step is off by 2^-29 of t if the
+/// magnitude of the residual's terms is at most this times the slope and t.
 constexpr float largest_size = 0x1p22f;
 
-/// Residuals of which too little but rounding is left, and gradients whose squares leave single
-/// precision's range, make no step: their slope is a NaN.
+/// Returns a NaN slope, so that no step is taken, where too little of the residual but rounding
+/// error is left, and where the square of the gradient leaves the range of single precision.
 inline Residual residual(const QuadricForm& form, const WideRays& rays, const vreal<float>& t)
 {
     const WideResidual low = residual(form, rays.org.low, rays.dir.low, widen_low(t));
@@ -236,8 +236,8 @@ inline Residual residual(const QuadricForm& form, const WideRays& rays, const vr
             gradient};
 }
 
-/// Lanes in which single precision is good enough for what a step of `dt` turns the gradient by:
-/// its terms, which may cancel, are far below the gradient.
+/// Lanes in which single precision suffices for the change of the gradient over a step of `dt`: the
+/// terms of the change, which may cancel, are far smaller than the gradient.
 inline vmask<float> turns_little(const QuadricForm& form, const Vec3v<float>& gradient,
                                  const RayPacket<float>& rays, const vreal<float>& dt)
 {
@@ -246,7 +246,7 @@ inline vmask<float> turns_little(const QuadricForm& form, const Vec3v<float>& gr
     return turn * turn * rays.dir2 <= dot(gradient, gradient);
 }
 
-/// The unit normal a `step` from where the gradient was taken.
+/// The unit normal at a `step` from the point of the gradient.
 inline Vec3v<float> normal_of(const QuadricForm& form, const Vec3v<float>& gradient,
                               const Vec3v<float>& step)
 {

@@ -3,12 +3,11 @@
 #include "kernels/geometry/quadric.hpp"
 #include "kernels/geometry/quadric_bounds.hpp"
 
-// Where rays cross the side of a quadric, in single precision, as intervals that bounds make
-// certain.
+// Where rays hit the side of a quadric, in single precision, as intervals with error bounds.
 namespace packtrace::PACKTRACE_ISA {
 namespace {
 
-/// The unclipped side along the rays, a t² + 2 b t + c = 0, by its discriminant.
+/// The unclipped side along the rays, a t² + 2 b t + c = 0, and its discriminant.
 struct QuadricLine {
     Vec3v<float> p;
     Vec3v<float> v;
@@ -18,12 +17,12 @@ struct QuadricLine {
     vreal<float> discriminant_error;
 };
 
-template <bool Shared>
+template <Origin O>
 inline QuadricLine line_of(const QuadricFilter& filter, const RayPacket<float>& rays)
 {
     const abi::QuadricRecord<float>& quadric = *filter.record;
     QuadricLine line;
-    if constexpr (Shared) {
+    if constexpr (O == Origin::shared) {
         line.p = broadcast(filter.p);
         line.height = vreal<float>(filter.height);
     } else {
@@ -38,8 +37,8 @@ inline QuadricLine line_of(const QuadricFilter& filter, const RayPacket<float>& 
     return line;
 }
 
-/// Lanes that surely miss the surface: those that cross the unclipped side nowhere and, where there
-/// are caps, are outside of it all along.
+/// Lanes that certainly miss the surface: they do not hit the unclipped side and, if there are
+/// caps, are outside of it everywhere.
 inline std::uint32_t surely_misses(const QuadricFilter& filter, const QuadricLine& line,
                                    const RayPacket<float>& rays)
 {
@@ -51,9 +50,9 @@ inline std::uint32_t surely_misses(const QuadricFilter& filter, const QuadricLin
     return bits(misses & (line.a > vreal<float>(filter.bend_error) * rays.dir2));
 }
 
-/// The roots of the lanes of `bent`, whose a is surely not 0. The first is in [low, low + width],
-/// the other in [high - width, high]; where lanes are not in `crosses` there may be none. Between
-/// the roots of `convex` lanes, whose a is above 0, rays are inside of the unclipped side, and
+/// The roots in the lanes of `bent`, whose a is certainly not 0. The first root is in [low, low +
+/// width], the second in [high - width, high]; in lanes not in `crosses` there may be none. In the
+/// lanes of `convex`, whose a is above 0, rays are inside the unclipped side between the roots and
 /// nowhere else.
 struct SideRoots {
     vreal<float> low, high;
@@ -92,13 +91,13 @@ inline SideRoots side_roots(const QuadricFilter& filter, const QuadricLine& line
     roots.low = middle - half;
     roots.high = middle + half;
     roots.width = vreal<float>(2.02f) * (madd(error, inverse_root, slack) * inverse);
-    // Which of the two is meant is told by where a hit was found (rough_root).
+    // rough_root() later identifies the root by t, so the roots must be far enough apart.
     roots.crosses =
         roots.bent & bits((line.discriminant > error) & (vreal<float>(8.0f) * roots.width < half));
     return roots;
 }
 
-/// Heights along the rays, and what they may be off by beside the error of the origin's.
+/// Heights along the rays, and their error without the error of the origin's height.
 struct ClipHeights {
     vreal<float> origin;
     vreal<float> climb;
@@ -117,8 +116,8 @@ struct ClipHeights {
     }
 };
 
-/// Lanes whose roots, and what of the rays is between them, are not between t_min and t_end, or not
-/// between the clipping planes there.
+/// Lanes whose roots, and the rays between them, lie outside [t_min, t_end] or outside the clipping
+/// planes.
 inline std::uint32_t surely_passes(const QuadricFilter& filter, const SideRoots& roots,
                                    const ClipHeights& heights, const vreal<float>& t_min,
                                    const vreal<float>& t_end)
@@ -141,8 +140,9 @@ inline std::uint32_t surely_passes(const QuadricFilter& filter, const SideRoots&
 /// A root in [low, high].
 struct SideRoot {
     vreal<float> low, high;
-    std::uint32_t counts;  ///< lanes in which it is between t_min, t_end and the planes for sure
-    std::uint32_t gone;    ///< and in which it is not, for sure
+    /// Lanes in which it is certainly between t_min and t_end and between the planes.
+    std::uint32_t counts;
+    std::uint32_t gone;  ///< lanes in which it certainly is not
 };
 
 inline SideRoot side_root(const QuadricFilter& filter, const ClipHeights& heights,

@@ -2,7 +2,7 @@
 
 #include "kernels/geometry/kinds.hpp"
 
-// Balls in single precision around objects, and how far rounding moved their centres.
+// Bounding balls of objects in single precision, and how far rounding moved their centres.
 namespace packtrace::PACKTRACE_ISA {
 namespace {
 
@@ -13,7 +13,7 @@ inline double size_of(const float (&v)[3])
            __builtin_fabs(double{v[2]});
 }
 
-/// A ball in single precision that holds an object, whose centre is off by `error` at most.
+/// A ball in single precision that contains an object; its centre is off by at most `error`.
 struct RoundedBall {
     float center[3];
     float radius;
@@ -29,7 +29,7 @@ inline RoundedBall ball_of(const abi::SphereListView<float>& list, int i)
             {list.surface[i]}};
 }
 
-/// Around a quadric, of infinite radius if that is unbounded, or around a polygon.
+/// The ball around a quadric (of infinite radius if it is unbounded) or around a polygon.
 template <class Record>
 inline RoundedBall ball_of(const Record& record)
 {
@@ -39,13 +39,13 @@ inline RoundedBall ball_of(const Record& record)
         ball.center[axis] = static_cast<float>(record.bound[axis]);
         size += __builtin_fabs(double{ball.center[axis]});
     }
-    // The centre that the ball is around was rounded once.
+    // The exact centre of the ball was rounded once.
     ball.error = above(size * 0x1p-23);
     return ball;
 }
 
-/// Calls `visit(record)` for the objects of a scene that have their own test alone, from first to
-/// last.
+/// Calls `visit(record)` for the objects of a scene that are neither spheres nor planes: quadrics,
+/// then polygons.
 template <class Real, class Visit>
 inline void for_each_other(const abi::GeometryView<Real>& scene, const Visit& visit)
 {

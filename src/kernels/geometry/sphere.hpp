@@ -7,19 +7,20 @@
 #include "kernels/geometry/object_list.hpp"
 #include "kernels/geometry/one_surface.hpp"
 
-// Spheres: the test, for rays from one point, too, and a hit's place.
+// Spheres: the test, also for rays from one point, and the point of a hit.
 namespace packtrace::PACKTRACE_ISA {
 namespace {
 
-/// |o|² - r² for the ray origin relative to the centre.
+/// o|² - r², where o is the ray origin relative to the centre.
 template <class Real>
 inline vreal<Real> sphere_constant(const Vec3v<Real>& o, const vreal<Real>& radius2)
 {
     return dot(o, o) - radius2;
 }
 
-/// The ray against |P|² = r², with `o` its origin relative to the centre. The discriminant is
-/// Lagrange's form a r² - |o × d|², which does not cancel for distant spheres as b² - a c does.
+/// The quadratic of a ray and |P|² = r²; `o` is the ray's origin relative to the centre. The
+/// discriminant is Lagrange's form a r² - |o × d|², which does not cancel for distant spheres as b²
+/// - a c does.
 template <class Real>
 inline Quadratic<Real> sphere_quadratic(const RayPacket<Real>& rays, const Vec3v<Real>& o,
                                         const vreal<Real>& radius2, const vreal<Real>& constant)
@@ -45,15 +46,15 @@ inline Quadratic<Real> quadratic_of(const abi::SphereListView<Real>& list, int i
     return sphere_quadratic<Real>(rays, o, radius2, sphere_constant<Real>(o, radius2));
 }
 
-/// x |x|, so that no ray meets a sphere of negative radius.
+/// x |x|, which makes every ray miss a sphere of negative radius.
 template <class Real>
 inline batch<Real> signed_square(batch<Real> x)
 {
     return x * abs(x);
 }
 
-/// Spheres for rays that share their origin: `x, y, z` is that origin relative to the centre,
-/// `constant` what sphere_constant gives there. In rising order.
+/// Spheres for rays that share their origin, in order of surface numbers: `x, y, z` is that origin
+/// relative to the centre, `constant` the value of sphere_constant() there.
 template <class Real>
 struct SharedOriginSpheres {
     Real* x = nullptr;
@@ -75,8 +76,8 @@ inline Quadratic<Real> quadratic_of(const SharedOriginSpheres<Real>& list, int i
                                   vreal<Real>(list.constant[index]));
 }
 
-/// Calls `visit(first, kept, center)` for the packets of spheres that hold any which a ray of the
-/// cone may meet: those of the lanes `kept`.
+/// Calls `visit(first, kept, center)` for the packets of spheres in which rays of the cone may hit
+/// the lanes `kept`.
 template <class Real, class Visit>
 inline void for_each_met(const Cone<Real>& cone, const abi::SphereListView<Real>& spheres,
                          const Visit& visit)
@@ -86,7 +87,7 @@ inline void for_each_met(const Cone<Real>& cone, const abi::SphereListView<Real>
         const Vec3v<Real> center{load(spheres.center_x + first), load(spheres.center_y + first),
                                  load(spheres.center_z + first)};
         std::uint32_t kept = first_lanes<Real>(spheres.count - first);
-        // Rounding may have moved a centre out of the cone that is far away for the sphere's size.
+        // Rounding may have moved the centre of a small, distant sphere out of the cone.
         if (cone.bounded)
             kept &= bits(
                 may_meet<Real>(cone, center - base,
@@ -108,8 +109,8 @@ inline void append_sphere(SharedOriginSpheres<Real>& list, const abi::SphereList
     list.count += __builtin_popcount(kept);
 }
 
-/// Fills `list` with the spheres that rays from `cone.base` may meet. What is kept of a sphere
-/// has the same bits as what the test of a single packet computes.
+/// Fills `list` with the spheres that rays from `cone.base` may hit. The stored values have the
+/// same bits as those that the test of a single packet computes.
 template <class Real>
 inline void find_from_point(SharedOriginSpheres<Real>& list, const Cone<Real>& cone,
                             const abi::SphereListView<Real>& spheres)
@@ -124,14 +125,14 @@ inline void find_from_point(SharedOriginSpheres<Real>& list, const Cone<Real>& c
     });
 }
 
-/// Some spheres of a scene: all, or copies in the room of a list for rays that share their origin,
-/// with centres in place of origins.
+/// Some spheres of a scene: either all, or copies. The copies use the arrays of a list for rays
+/// that share their origin, with centres instead of origins.
 template <class Real>
 struct SelectedSpheres : abi::SphereListView<Real> {
-    SharedOriginSpheres<Real> room;
+    SharedOriginSpheres<Real> copies;
 };
 
-/// Fills `list` with the spheres that rays of `cone` may meet.
+/// Fills `list` with the spheres that rays of `cone` may hit.
 template <class Real>
 inline void find_met(SelectedSpheres<Real>& list, const Cone<Real>& cone,
                      const abi::SphereListView<Real>& spheres)
@@ -141,15 +142,16 @@ inline void find_met(SelectedSpheres<Real>& list, const Cone<Real>& cone,
         view = spheres;
         return;
     }
-    SharedOriginSpheres<Real>& room = list.room;
-    room.count = 0;
+    SharedOriginSpheres<Real>& copies = list.copies;
+    copies.count = 0;
     for_each_met(cone, spheres, [&](int first, std::uint32_t kept, const Vec3v<Real>& center) {
-        append_sphere(room, spheres, first, kept, center);
+        append_sphere(copies, spheres, first, kept, center);
     });
-    view = {room.x, room.y, room.z, nullptr, room.radius2, nullptr, room.surface, room.count};
+    view = {copies.x,       copies.y, copies.z,       nullptr,
+            copies.radius2, nullptr,  copies.surface, copies.count};
 }
 
-/// A sphere of a list, whichever form that has.
+/// One sphere of a list of any type.
 template <class List>
 struct ListedSphere {
     const List& list;
@@ -180,7 +182,7 @@ inline Quadratic<Real> quadratic_of(const ListedSphere<List>& sphere, const RayP
     return quadratic_of(sphere.list, sphere.index, rays);
 }
 
-/// Of length 1 on the surface.
+/// The outward normal, of length 1 for points on the surface.
 template <class Real>
 inline Vec3v<Real> normal_at(const abi::SphereShape& sphere, const Vec3v<Real>& point)
 {
@@ -211,12 +213,14 @@ inline RefinedHalf refine(const abi::SphereShape& sphere, unsigned, const RayPac
         first_root(sphere_quadratic<double>(rays, o, radius2, sphere_constant<double>(o, radius2)),
                    rays.t_min);
     hit.point = point_at(rays, hit.t);
-    // From afar double misplaces the point by more than the normal's length may be off.
+    // From afar the point's error in double is larger than a normal's length may be off, so the
+    // normal is scaled to length 1.
     hit.normal = unit_normal<double>(sphere, 0, hit.point, rays.dir);
     return hit;
 }
 
-/// Spheres, one a lane or one for all: |w|² = radius² for w from the centre.
+/// The equation of spheres, one per lane or one for all lanes: |w|² = radius² for w from the
+/// centre.
 struct SphereForm {
     static constexpr bool root_is_known = false;
 
@@ -233,7 +237,7 @@ inline SphereForm form_of(const abi::SphereShape& sphere)
     return {{center, center}, {radius2, radius2}, rough(sphere.center), rough(sphere.radius)};
 }
 
-/// A sphere a lane; of radius 1 around the origin in those that none is put in.
+/// One sphere per lane; lanes that are not set hold a sphere of radius 1 around the origin.
 class SphereLanes {
 public:
     void put(std::uint32_t lanes_of, const abi::SphereShape& sphere)
@@ -270,7 +274,7 @@ inline RoughRoot rough_root(const SphereForm& form, const RayPacket<float>& rays
     const vreal<float> inverse = vreal<float>(1.0f) / rays.dir2;
     const vreal<float> near = negated(b + root) * inverse;
     const auto counts = near > rays.t_min;
-    // Gradients of smaller spheres lose digits to underflow: nothing is enough for a NaN.
+    // Gradients of smaller spheres lose digits to underflow. NaN makes the Newton step fail.
     const auto small = form.rough_radius < vreal<float>(1e-30f);
     const vreal<float> t = select(counts, near, (root - b) * inverse);
     return {select(small, vreal<float>(__builtin_nanf("")), t), rays.dir2};
@@ -285,7 +289,7 @@ inline Residual residual(const SphereForm& form, const WideRays& rays, const vre
             narrow(dot(low, rays.dir.low), dot(high, rays.dir.high)), narrow(low, high)};
 }
 
-/// The unit normal a `step` from where the gradient was taken.
+/// The unit normal at a `step` from the point of the gradient.
 inline Vec3v<float> normal_of(const SphereForm& form, const Vec3v<float>& gradient,
                               const Vec3v<float>& step)
 {
@@ -297,8 +301,8 @@ inline HitAgain hit_again(const abi::SphereShape&, unsigned)
     return HitAgain::from_inside;
 }
 
-/// Where rays from points of the surface meet it again beyond t_min. `outside` are the lanes that
-/// leave it on the outer side.
+/// Where rays from points on the surface hit it again beyond t_min. `outside` are the lanes that
+/// leave on the outer side.
 inline OwnCrossing second_crossing(const abi::SphereShape& sphere, unsigned,
                                    const Vec3v<double>& point, const Vec3v<double>& dir,
                                    const vreal<double>& t_min, vmask<double> outside)

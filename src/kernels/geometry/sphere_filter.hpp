@@ -3,35 +3,35 @@
 #include "kernels/geometry/filter.hpp"
 #include "kernels/geometry/sphere.hpp"
 
-// Certain tests of spheres in single precision. For w = o - c, known to e_w, and the moment
-// m = w × d the error of |m| is at most |d| h + u |m| with h = e_w + u |w|. So a ray whose |m| is
-// above (r + h) |d| misses for sure, and one below (r - h) |d| crosses for sure;
+// Tests of spheres with error bounds, in single precision. For w = o - c, known up to e_w, and the
+// moment m = w × d, the error of |m| is at most |d| h + u |m| with h = e_w + u |w|. So a ray with
+// |m| above (r + h) |d| certainly misses, and one below (r - h) |d| certainly hits;
 // docs/numerics_derivations.md has the proof.
 namespace packtrace::PACKTRACE_ISA {
 namespace {
 
-/// The bounds of a sphere for the origins of a group, of one sphere or of one a lane. What the
-/// distance from an origin to the centre adds, by the ray itself, is in crossing().
+/// The error bounds of a sphere for a set of ray origins, for one sphere or for one per lane.
+/// crossing() adds the part that depends on the distance from the ray's origin to the centre.
 template <class Value>
 struct SphereBounds {
     Value outer2;  ///< (r + h)², rounded up
     Value inner2;  ///< (r - h)², rounded down; negative for none
-    Value along;   ///< of t, times |d|, but for what a small discriminant adds
+    Value along;   ///< of t, times |d|, without the part of a small discriminant
     Value moment;  ///< of |m|, per |d|
     Value size;    ///< twice the radius, rounded up
-    Value band2;   ///< the square of a quarter of the way in the sphere, times d·d, of a ray in
-                   ///< between, at most
-    Value reach;   ///< half the way of a near ray in the sphere at most, and `along`
+    Value band2;  ///< upper bound, for a ray between inner and outer, of the square of a quarter of
+                  ///< its length in the sphere, times d·d
+    Value reach;  ///< upper bound of half the length of a ray in the sphere, plus `along`
 };
 
-/// How far rounding may move |m| / |d| for rays whose origins are up to `length` from a centre that
-/// is known to `center_error`.
+/// How far rounding may change |m| / |d| for rays whose origins are at most `length` from a centre
+/// that is known up to `center_error`.
 inline vreal<float> moment_error(const vreal<float>& center_error, const vreal<float>& length)
 {
     return madd(vreal<float>(roundoffs(2.4f)), length, center_error);
 }
 
-/// `moment` is the moment_error() of all rays of the group.
+/// `moment` is moment_error() for all rays of the set.
 template <class Value>
 inline SphereBounds<Value> sphere_bounds(const Value& radius, const Value& center_error,
                                          const Value& moment)
@@ -51,30 +51,30 @@ inline SphereBounds<Value> sphere_bounds(const Value& radius, const Value& cente
     return bounds;
 }
 
-/// How far a t may be off, times |d|, of a ray that is near with |b| / |d| = `reach`: its |w| is up
-/// to that and outer.
+/// The error of t, times |d|, of a ray that does not miss with |b| / |d| = `reach`: |w| is at most
+/// reach + outer.
 template <class Value>
 inline Value along_error(const SphereBounds<Value>& bounds, const Value& reach)
 {
     return madd(Value(roundoffs(28.0f)), reach, bounds.along);
 }
 
-/// The same of |m|, per |d|, times twice the radius: over the root of the discriminant what that
-/// may be off by.
+/// The error of |m|, per |d|, times twice the radius. Divided by the discriminant's root it is the
+/// error of that root.
 template <class Value>
 inline Value root_error(const SphereBounds<Value>& bounds, const Value& reach)
 {
     return bounds.size * madd(Value(roundoffs(2.6f)), reach, bounds.moment);
 }
 
-/// What certain tests of a packet of rays and a sphere, or of a ray and a packet of spheres, need.
+/// The input of a test of a packet of rays and a sphere, or of a ray and a packet of spheres.
 struct SphereTest {
-    Vec3v<float> w;  ///< origin relative to the centre
+    Vec3v<float> w;  ///< ray origin relative to the centre
     vreal<float> radius2;
     SphereBounds<vreal<float>> bounds;
 };
 
-/// Lanes that don't surely miss, and |m|².
+/// Lanes that do not certainly miss, and |m|².
 struct SphereApproach {
     vreal<float> moment2;
     std::uint32_t near;
@@ -94,8 +94,8 @@ inline SphereApproach approach(const Vec3v<float>& w, const vreal<float>& outer2
     return {moment2, ~misses & all_lanes<float>};
 }
 
-/// Of the lanes near a sphere with bounds.reach those that may be in it between t_min and t_end.
-/// `middle` is the t of their nearest approach.
+/// The lanes of `near` that may be inside the sphere between t_min and t_end; `reach` is
+/// bounds.reach. `middle` is the t at which they are closest to the centre.
 inline std::uint32_t may_be_within(std::uint32_t near, const vreal<float>& middle,
                                    const vreal<float>& reach, const RayPacket<float>& rays,
                                    const RayScale& scale, const vreal<float>& t_end)
@@ -105,15 +105,15 @@ inline std::uint32_t may_be_within(std::uint32_t near, const vreal<float>& middl
     return near & ~bits(middle + half < rays.t_min) & ~bits(middle - half > t_end);
 }
 
-/// Discriminants below this count as this, so that their inverse root is a number.
+/// Smaller discriminants count as this, so that their inverse root is finite.
 inline constexpr float least_discriminant = 1e-37f;
-/// What the root of a smaller one may be off by.
+/// The error of the root of a smaller discriminant.
 inline constexpr float least_root_error = 1e-18f;
 
-/// Both roots in the lanes that cross the sphere for sure.
+/// Both roots, in the lanes that certainly hit the sphere.
 struct SphereCrossing {
     RootIntervals roots;
-    vreal<float> middle;  ///< t of the nearest approach
+    vreal<float> middle;  ///< t at which the ray is closest to the centre
     vreal<float> along;   ///< its error
     vmask<float> sure;
 };
@@ -139,14 +139,14 @@ inline SphereCrossing crossing(const SphereTest& test, const SphereApproach& nea
     return result;
 }
 
-/// Half the interval that holds both roots in lanes that may or may not cross the sphere.
+/// Half the length of the interval that contains both roots, in lanes that may miss the sphere.
 inline vreal<float> band_error(const SphereTest& test, const SphereCrossing& at,
                                const RayScale& scale)
 {
     return madd(vreal<float>(2.0f * inflation) * sqrt(test.bounds.band2), scale.inverse, at.along);
 }
 
-/// The closest hit of a packet that is near the sphere, but for the lanes that start on it.
+/// Keeps the closest hits of lanes that do not certainly miss the sphere and do not start on it.
 inline void keep_near_sphere(HitPacket<float>& hit, const SphereTest& test,
                              const SphereApproach& near, const RayPacket<float>& rays,
                              const RayScale& scale, std::int32_t surface)
@@ -166,8 +166,9 @@ inline void keep_near_sphere(HitPacket<float>& hit, const SphereTest& test,
     keep_doubt(hit, from_bits<float>(band & ~behind), at.middle - error, 0);
 }
 
-/// What needs no root: rays from outside that go through between t_min and t_end, or that have the
-/// sphere behind them, or wholly beyond t_end. The other lanes of `near` are left.
+/// Occlusion that is decided without a root: rays from outside that pass through the sphere between
+/// t_min and t_end, or that have the sphere behind them or completely beyond t_end. The other lanes
+/// of `near` are `left`.
 struct PlainOcclusion {
     std::uint32_t blocked;
     std::uint32_t left;
@@ -182,7 +183,7 @@ inline PlainOcclusion plainly_occludes(const SphereTest& test, const SphereAppro
         along_error<vreal<float>>(test.bounds, abs(b) * scale.inverse) * scale.length;
     const vreal<float> first_slope = madd(rays.dir2, rays.t_min, b);
     const vreal<float> last_slope = madd(rays.dir2, t_end, b);
-    // |w + t_min d|² is no less than |w|² + 2 t_min b.
+    // w + t_min d|² is at least |w|² + 2 t_min b.
     const vreal<float> distance2 = madd(rays.t_min + rays.t_min, b - slack,
                                         dot(test.w, test.w) * vreal<float>(1.0f - roundoffs(8.0f)));
     const vreal<float> outer2 = test.bounds.outer2 * vreal<float>(1.0f + roundoffs(8.0f));
@@ -195,7 +196,7 @@ inline PlainOcclusion plainly_occludes(const SphereTest& test, const SphereAppro
     return {outside & through, near.near & ~(outside & (through | clear))};
 }
 
-/// Whether the sphere is between t_min and t_end of the lanes that are near it.
+/// Whether the sphere occludes the lanes that do not certainly miss it, between t_min and t_end.
 inline Occlusion occludes(const SphereTest& test, const SphereApproach& near,
                           const RayPacket<float>& rays, const RayScale& scale,
                           const vreal<float>& t_end)
@@ -218,7 +219,7 @@ inline Occlusion occludes(const SphereTest& test, const SphereApproach& near,
     return result;
 }
 
-/// A sphere by certain tests, for a packet of rays.
+/// Tests one sphere with error bounds, for a packet of rays.
 template <class Own>
 inline void keep_sphere(HitPacket<float>& hit, const SphereTest& test, const SphereApproach& near,
                         const RayPacket<float>& rays, const RayScale& scale, std::int32_t surface,

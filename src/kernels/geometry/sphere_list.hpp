@@ -2,25 +2,25 @@
 
 #include "kernels/geometry/sphere_filter.hpp"
 
-// Lists of spheres, each with the bounds of its certain tests.
+// Lists of spheres with error bounds.
 namespace packtrace::PACKTRACE_ISA {
 namespace {
 
-/// Spheres with their bounds, in rising order or sorted by distance. `x, y, z` is a shared origin
-/// relative to the centre, else the centre.
+/// Spheres with their error bounds, in order of surface numbers or sorted by distance. `x, y, z` is
+/// a shared origin relative to the centre, else the centre.
 struct SphereFilters {
     float* x = nullptr;
     float* y = nullptr;
     float* z = nullptr;
     float* radius2 = nullptr;
     SphereBounds<float*> bounds = {};
-    float* distance = nullptr;  ///< of sorted ones from the shared origin, at least
+    float* distance = nullptr;  ///< if sorted: lower bound of the distance from the shared origin
     std::int32_t* surface = nullptr;
     int count = 0;
     bool sorted = false;
 };
 
-/// The bounds of a packet of spheres go where the lanes of `kept` go.
+/// Appends the bounds of the lanes of `kept` of a packet of spheres; does not change the count.
 inline void append_bounds(SphereFilters& list, std::uint32_t kept,
                           const SphereBounds<vreal<float>>& bounds)
 {
@@ -33,16 +33,16 @@ inline void append_bounds(SphereFilters& list, std::uint32_t kept,
     compress_store(list.bounds.reach + list.count, kept, bounds.reach);
 }
 
-/// Spheres of a packet, for rays from some origins.
+/// A packet of spheres, for a set of ray origins.
 struct CertainSpheres {
-    Vec3v<float> place;   ///< as lists have it: the origin relative to the centre, or the centre
-    Vec3v<float> origin;  ///< the middle of the origins relative to the centre
+    Vec3v<float> place;   ///< as stored in lists: the origin relative to the centre, or the centre
+    Vec3v<float> origin;  ///< the centre of the origins relative to the sphere's centre
     vreal<float> radius;
     vreal<float> radius2;
     vreal<float> center_error;
 };
 
-/// Those of `kept` become the last of a list.
+/// Appends the spheres of `kept` to a list; does not change the count.
 inline void append_certain(SphereFilters& list, std::uint32_t kept, const CertainSpheres& spheres,
                            const Origins& origins)
 {
@@ -58,7 +58,7 @@ inline void append_certain(SphereFilters& list, std::uint32_t kept, const Certai
     append_bounds(list, kept, sphere_bounds(spheres.radius, error, moment_error(error, length)));
 }
 
-/// A shared origin relative to a packet of centres, rounded once.
+/// A shared origin relative to a packet of centres, computed in double and rounded once.
 inline Vec3v<float> origin_from_centers(const Origins& origins,
                                         const abi::SphereListView<double>& wide, int first)
 {
@@ -69,8 +69,8 @@ inline Vec3v<float> origin_from_centers(const Origins& origins,
     return {from(0, wide.center_x), from(1, wide.center_y), from(2, wide.center_z)};
 }
 
-/// Fills a list with the spheres that a cone may meet, or with all where it is not bounded.
-template <bool Shared>
+/// Fills a list with the spheres that a cone may hit; with all if the cone is not bounded.
+template <Origin O>
 inline void find_certain(SphereFilters& list, const Origins& origins, const Cone<float>& cone,
                          const abi::SphereListView<float>& spheres,
                          const abi::SphereListView<double>& wide)
@@ -78,25 +78,26 @@ inline void find_certain(SphereFilters& list, const Origins& origins, const Cone
     list.count = 0;
     list.sorted = false;
     for_each_met(cone, spheres, [&](int first, std::uint32_t kept, const Vec3v<float>& center) {
-        const Vec3v<float> w =
-            Shared ? origin_from_centers(origins, wide, first) : broadcast(origins.center) - center;
-        const vreal<float> error = Shared ? vreal<float>(0.0f) : load(spheres.center_error + first);
+        const Vec3v<float> w = O == Origin::shared ? origin_from_centers(origins, wide, first)
+                                                   : broadcast(origins.center) - center;
+        const vreal<float> error =
+            O == Origin::shared ? vreal<float>(0.0f) : load(spheres.center_error + first);
         compress_store(list.surface + list.count, kept, load(spheres.surface + first));
         append_certain(list, kept,
-                       {Shared ? w : center, w, load(spheres.radius + first),
+                       {O == Origin::shared ? w : center, w, load(spheres.radius + first),
                         load(spheres.radius2 + first), error},
                        origins);
         list.count += __builtin_popcount(kept);
     });
 }
 
-/// One sphere of a list for a packet of rays.
-template <bool Shared>
+/// The rays' origins relative to the centre of one sphere of a list.
+template <Origin O>
 inline Vec3v<float> origin_from(const SphereFilters& list, int i, const RayPacket<float>& rays)
 {
     const Vec3v<float> place{vreal<float>(list.x[i]), vreal<float>(list.y[i]),
                              vreal<float>(list.z[i])};
-    return Shared ? place : rays.org - place;
+    return O == Origin::shared ? place : rays.org - place;
 }
 
 inline SphereTest test_of(const SphereFilters& list, int i, const Vec3v<float>& w)
@@ -114,59 +115,60 @@ inline ListedSphere<SphereFilters> object_at(const SphereFilters& list, int inde
     return {list, index};
 }
 
-template <bool Shared, class Own>
+template <Origin O, class Own>
 inline void keep_certain(HitPacket<float>& hit, const ListedSphere<SphereFilters>& sphere,
                          const RayPacket<float>& rays, const RayScale& scale, const Own& own)
 {
     const auto& [list, i] = sphere;
-    const Vec3v<float> w = origin_from<Shared>(list, i, rays);
+    const Vec3v<float> w = origin_from<O>(list, i, rays);
     const SphereApproach near = approach(w, vreal<float>(list.bounds.outer2[i]), rays);
     if (near.near != 0)
         keep_sphere(hit, test_of(list, i, w), near, rays, scale, list.surface[i], own);
 }
 
-template <bool Shared, class Own>
+template <Origin O, class Own>
 inline Occlusion occludes(const ListedSphere<SphereFilters>& sphere, const RayPacket<float>& rays,
                           const RayScale& scale, const vreal<float>& t_end, const Own&)
 {
     const auto& [list, i] = sphere;
-    const Vec3v<float> w = origin_from<Shared>(list, i, rays);
+    const Vec3v<float> w = origin_from<O>(list, i, rays);
     const SphereApproach near = approach(w, vreal<float>(list.bounds.outer2[i]), rays);
     if (near.near == 0)
         return {};
     return occludes(test_of(list, i, w), near, rays, scale, t_end);
 }
 
-/// Lets each of `arrays` have `room` elements of one block; of none where an arena only measures.
+/// Divides one block into the `arrays`, of `length` elements each. They become null if the arena
+/// only measures.
 template <class Real, class Arena, std::size_t Count>
-inline void share_block(Arena& arena, Real** const (&arrays)[Count], std::size_t room)
+inline void share_block(Arena& arena, Real** const (&arrays)[Count], std::size_t length)
 {
-    Real* const block = arena.template take<Real>(Count * room);
+    Real* const block = arena.template take<Real>(Count * length);
     for (std::size_t i = 0; i < Count; ++i)
-        *arrays[i] = block == nullptr ? nullptr : block + i * room;
+        *arrays[i] = block == nullptr ? nullptr : block + i * length;
 }
 
-/// Of arrays with room for so many spheres, and for whole packets of them.
-inline std::size_t padded(int count)
+/// The length of an array for `count` spheres, including the padding for whole packets.
+inline std::size_t padded_length(int count)
 {
     return (static_cast<std::size_t>(count) / abi::padding + 2) * abi::padding;
 }
 
-/// Room for as many spheres; `arena.take<T>(count)` gives room for `count` of T.
+/// Takes memory for `count` spheres; `arena.take<T>(count)` returns memory for `count` of T.
 template <class Arena, class Real>
-inline void take_room(Arena& arena, SharedOriginSpheres<Real>& list, int count)
+inline void take_memory(Arena& arena, SharedOriginSpheres<Real>& list, int count)
 {
     Real** const arrays[] = {&list.x, &list.y, &list.z, &list.radius2, &list.constant};
-    share_block(arena, arrays, padded(count));
-    list.surface = arena.template take<lane_int<Real>>(padded(count));
+    share_block(arena, arrays, padded_length(count));
+    list.surface = arena.template take<lane_int<Real>>(padded_length(count));
 }
 template <class Arena, class Real>
-inline void take_room(Arena& arena, SelectedSpheres<Real>& list, int count)
+inline void take_memory(Arena& arena, SelectedSpheres<Real>& list, int count)
 {
-    take_room(arena, list.room, count);
+    take_memory(arena, list.copies, count);
 }
 
-/// The arrays of a list but for that of surfaces.
+/// All arrays of a list except `surface`.
 struct FilterArrays {
     float** of[12];
 };
@@ -179,13 +181,13 @@ inline FilterArrays arrays_of(SphereFilters& list)
 }
 
 template <class Arena>
-inline void take_room(Arena& arena, SphereFilters& list, int count)
+inline void take_memory(Arena& arena, SphereFilters& list, int count)
 {
-    share_block(arena, arrays_of(list).of, padded(count));
-    list.surface = arena.template take<std::int32_t>(padded(count));
+    share_block(arena, arrays_of(list).of, padded_length(count));
+    list.surface = arena.template take<std::int32_t>(padded_length(count));
 }
 
-/// The kind (kinds.hpp).
+/// The kind, see kinds.hpp.
 struct Sphere : KindOf<abi::Primitive::sphere, abi::SurfaceKind::sphere> {
     template <class Real>
     using FromPoint = SharedOriginSpheres<Real>;

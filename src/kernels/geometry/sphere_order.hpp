@@ -2,18 +2,19 @@
 
 #include "kernels/geometry/sphere_list.hpp"
 
-// Lists of spheres in the order in which rays from their shared origin may meet them, so that a
-// packet is not tested against those behind all that it hits.
+// Sorts lists of spheres by their distance from a shared ray origin, so that a packet skips the
+// spheres behind all its hits.
 namespace packtrace::PACKTRACE_ISA {
 namespace {
 
-/// The search for closest hits asks about the rest of a list once for so many spheres. Shorter
-/// lists are not worth sorting; longer ones than the most take long to sort.
+/// The search for closest hits checks once per `sorted_step` spheres whether the rest of the list
+/// is behind. Shorter lists are not worth sorting; lists with more than `most_sorted_spheres` take
+/// too long to sort.
 inline constexpr int sorted_step = 4;
 inline constexpr int most_sorted_spheres = 255;
 
-/// How far a packet of spheres is from the shared origin at least: less by far more than rounding
-/// does to a t.
+/// A lower bound of the distance of a packet of spheres from the shared origin, reduced by far more
+/// than the rounding error of a t.
 inline vreal<float> least_distance(const SphereFilters& list, int first)
 {
     const Vec3v<float> w{load(list.x + first), load(list.y + first), load(list.z + first)};
@@ -24,8 +25,8 @@ inline vreal<float> least_distance(const SphereFilters& list, int first)
     return select(distance > zero, distance, zero);
 }
 
-/// Fills `rank` with the places of a list's spheres in the order of their distances, which it
-/// finds. Those as far away keep their order.
+/// Fills `rank` with the sorted positions of a list's spheres, and finds their distances. Spheres
+/// at equal distance keep their order.
 inline void rank_by_distance(std::uint8_t (&rank)[most_sorted_spheres], SphereFilters& list)
 {
     for (int first = 0; first < list.count; first += lanes<float>)
@@ -51,7 +52,7 @@ inline void reorder(Value* values, const std::uint8_t (&rank)[most_sorted_sphere
         values[rank[i]] = before[i];
 }
 
-/// Sorts a list, unless it is too short or too long for that.
+/// Sorts a list, unless it is too short or too long.
 inline void sort_by_distance(SphereFilters& list)
 {
     if (list.count <= sorted_step || list.count > most_sorted_spheres)
@@ -64,21 +65,21 @@ inline void sort_by_distance(SphereFilters& list)
     list.sorted = true;
 }
 
-/// Whether the spheres of a sorted list from `i` on are behind `t` of all rays.
+/// Whether the spheres of a sorted list from `i` on are behind `t` for all rays.
 inline bool are_behind(const SphereFilters& list, int i, const vreal<float>& t,
                        const RayScale& scale)
 {
     return all(t * scale.length < vreal<float>(list.distance[i]));
 }
 
-/// The same, now and then, of the rest of any list.
+/// The same for any list, checked at every sorted_step-th sphere.
 inline bool rest_is_behind(const SphereFilters& list, int i, const vreal<float>& t,
                            const RayScale& scale)
 {
     return i % sorted_step == sorted_step - 1 && list.sorted && are_behind(list, i, t, scale);
 }
 
-/// How many of a list are left without those behind `t` of all rays.
+/// The number of spheres in a list without those at its end that are behind `t` for all rays.
 inline int count_before(const SphereFilters& list, const vreal<float>& t, const RayScale& scale)
 {
     if (!list.sorted)

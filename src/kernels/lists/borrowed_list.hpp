@@ -2,26 +2,26 @@
 
 #include <cstddef>
 
-// A list in memory that belongs to others.
+// A list in memory that it does not own.
 namespace packtrace::PACKTRACE_ISA {
 namespace {
 
 template <class Object>
 struct BorrowedList {
     Object* first = nullptr;
-    Object* last = nullptr;  ///< where the next one goes
+    Object* last = nullptr;  ///< one past the last object
 
-    /// `room` is for as many objects as are ever in the list.
-    void use(Object* room)
+    /// Uses memory for the largest number of objects that the list ever holds.
+    void use(Object* memory)
     {
-        first = last = room;
+        first = last = memory;
     }
     template <class Arena>
-    void take(Arena& arena, std::size_t room)
+    void take(Arena& arena, std::size_t capacity)
     {
-        use(arena.template take<Object>(room));
+        use(arena.template take<Object>(capacity));
     }
-    /// One more, which the caller fills.
+    /// Appends an object, which the caller fills.
     Object& next()
     {
         return *last++;

@@ -6,12 +6,12 @@ namespace {
 template <class Signature>
 class Callback;
 
-/// A callable of the caller's, called through a pointer: what takes one is compiled once, and not
-/// for each of its callers. It holds no copy of the callable.
+/// A reference to a callable, called through a pointer. A function with a Callback parameter is
+/// compiled once, not once per callable. The callable is not copied.
 template <class Result, class... Arguments>
 class Callback<Result(Arguments...)> {
 public:
-    /// None, which can't be called.
+    /// No callable; must not be called.
     Callback() = default;
     template <class Callable>
     explicit Callback(const Callable& callable)

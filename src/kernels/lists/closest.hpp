@@ -4,11 +4,12 @@
 #include "kernels/precision/own_surface.hpp"
 #include "kernels/stats/observe.hpp"
 
-// Closest hits of a packet among lists of objects.
+// Closest hits of a packet with the objects of lists.
 namespace packtrace::PACKTRACE_ISA {
 namespace {
 
-/// Rays against all objects of a scene, or from their shared origin against those of a cone.
+/// Tests rays against all objects of a scene, or rays that share an origin against the objects of a
+/// cone.
 template <abi::Features F, class Objects, class Real, class Own>
 inline void closest_hit(HitPacket<Real>& hit, const Objects& objects, const RayPacket<Real>& rays,
                         const Own& own)
@@ -27,9 +28,9 @@ inline void closest_hit(HitPacket<Real>& hit, const Objects& objects, const RayP
     });
 }
 
-/// The same by certain tests, for rays of the origins that the objects' bounds are for.
-template <abi::Features F, bool Shared, class Own>
-inline void closest_hit(HitPacket<float>& hit, const FilteredObjects<Shared>& objects,
+/// The same with error bounds, for rays from the origins that the bounds are for.
+template <abi::Features F, Origin O, class Own>
+inline void closest_hit(HitPacket<float>& hit, const FilteredObjects<O>& objects,
                         const RayPacket<float>& rays, const Own& own)
 {
     const RayScale scale(rays);
@@ -37,14 +38,15 @@ inline void closest_hit(HitPacket<float>& hit, const FilteredObjects<Shared>& ob
     for_each_kind<F>([&](auto kind) {
         const auto& list = objects_of<decltype(kind)>(objects);
         for (int i = 0; i < list.count; ++i) {
-            if constexpr (Shared && requires { rest_is_behind(list, i, hit.t, scale); })
+            if constexpr (O == Origin::shared &&
+                          requires { rest_is_behind(list, i, hit.t, scale); })
                 if (rest_is_behind(list, i, hit.t, scale))
                     break;
             const auto& object = object_at(list, i);
             if (own.all_on(body_of(object)))
                 continue;
             at.test(kind.primitive);
-            keep_certain<Shared>(hit, object, rays, scale, own);
+            keep_certain<O>(hit, object, rays, scale, own);
         }
         return true;
     });
@@ -54,8 +56,8 @@ inline void closest_hit(HitPacket<float>& hit, const FilteredObjects<Shared>& ob
         doubt_all(hit, from_bits<float>(~bits(certifiable(rays)) & all_lanes<float>));
 }
 
-/// Calls `visit(valid, t, surface)` for every crossing of every surface in a scene's lists; only
-/// those where `valid`, and with a finite t, are one.
+/// Calls `visit(valid, t, surface)` for every root of every surface in a scene's lists. Only lanes
+/// in `valid` with a finite t are hits.
 template <abi::Features F, class Real, class Visit>
 inline void visit_all_crossings(const abi::GeometryView<Real>& scene, const RayPacket<Real>& rays,
                                 const Visit& visit)

@@ -3,26 +3,23 @@
 #include "kernels/lists/common_objects.hpp"
 #include "kernels/precision/refine.hpp"
 
-// The closest hit of a packet of which all rays that hit anything hit the same object, by fewer
-// operations than the search in lists takes: a few tests tell that nothing else is near, or that it
-// lies behind the hit, which is refined at once. What they can't tell is left to that search. The
-// bounds are those of the lists, and the places have the bits of refine.hpp.
+// Closest hits of a packet whose rays all hit the same object or nothing, with fewer operations
+// than the search in lists. A few tests show that no other object is near, or that it is behind the
+// hit, which is refined at once. If they cannot, the packet goes through the lists. The error
+// bounds are those of the lists, and hits have the same bits as in refine.hpp.
 namespace packtrace::PACKTRACE_ISA {
 namespace {
 
-/// Whether the rays of a packet share their origin.
-enum class Origin { shared, any };
-
-/// The hits of a packet that are on one surface.
+/// The hits of a packet, all on one surface.
 struct CommonHit {
     vreal<float> t;
     Vec3v<float> point;
-    Vec3v<float> outward;  ///< unit normal; with Refine::t not set
+    Vec3v<float> outward;  ///< unit normal; not set with Refine::t
     std::int32_t surface;
-    std::uint32_t lanes;  ///< none where nothing is hit
+    std::uint32_t lanes;  ///< 0 if nothing is hit
 };
 
-/// Where rays start relative to a ball's centre.
+/// The rays' origins relative to the centre of a ball.
 template <Origin O>
 inline Vec3v<float> from_center(const CommonBall& ball, const RayPacket<float>& rays)
 {
@@ -32,24 +29,26 @@ inline Vec3v<float> from_center(const CommonBall& ball, const RayPacket<float>& 
         return rays.org - broadcast(ball.center);
 }
 
-/// A ground's form where rays start.
+/// The equation of a ground at the rays' origins.
 template <Origin O>
 inline AnchoredOrigin<float> form_at_start(const CommonGround& ground, const RayPacket<float>& rays)
 {
     if constexpr (O == Origin::shared)
-        return {broadcast(ground.eye_gradient), vreal<float>(ground.eye_value)};
+        return {broadcast(ground.shared_gradient), vreal<float>(ground.shared_value)};
     else
         return form_at(ground, rays.org);
 }
 
-/// Where rays start relative to a point, in double.
+/// The rays' origins relative to a point, in double.
 template <Origin O>
-inline BothHalves<Vec3v<double>> starts_from(const RayPacket<float>& rays, const float (&eye)[3],
+inline BothHalves<Vec3v<double>> starts_from(const RayPacket<float>& rays,
+                                             const float (&shared_origin)[3],
                                              const double (&base)[3])
 {
     if constexpr (O == Origin::shared) {
-        const double from[3] = {double{eye[0]} - base[0], double{eye[1]} - base[1],
-                                double{eye[2]} - base[2]};
+        const double from[3] = {double{shared_origin[0]} - base[0],
+                                double{shared_origin[1]} - base[1],
+                                double{shared_origin[2]} - base[2]};
         return {broadcast(from), broadcast(from)};
     } else {
         const Vec3v<double> to = broadcast(base);
@@ -58,25 +57,27 @@ inline BothHalves<Vec3v<double>> starts_from(const RayPacket<float>& rays, const
 }
 
 template <Origin O>
-inline BothHalves<Vec3v<double>> wide_origins(const RayPacket<float>& rays, const float (&eye)[3])
+inline BothHalves<Vec3v<double>> wide_origins(const RayPacket<float>& rays,
+                                              const float (&shared_origin)[3])
 {
     if constexpr (O == Origin::shared) {
-        const double from[3] = {double{eye[0]}, double{eye[1]}, double{eye[2]}};
+        const double from[3] = {double{shared_origin[0]}, double{shared_origin[1]},
+                                double{shared_origin[2]}};
         return {broadcast(from), broadcast(from)};
     } else {
         return widen(rays.org);
     }
 }
 
-/// A root in single precision, and what is known of the packet's rays there.
+/// A root in single precision, and what is known of the packet there.
 struct RoughCommon {
     vreal<float> t;
     vreal<float> bend;
-    std::uint32_t open;  ///< lanes that may have the surface before them
-    std::uint32_t sure;  ///< of these, those that enter it for sure beyond 0
+    std::uint32_t open;  ///< lanes that may hit the surface
+    std::uint32_t sure;  ///< of these, the lanes that certainly enter it beyond 0
 };
 
-/// Of rays that may have a ball before them.
+/// The rays of a packet that may hit a ball.
 struct NearBall {
     vreal<float> moment2;
     vreal<float> b;
@@ -122,32 +123,33 @@ inline RoughCommon rough_common(const CommonGround& ground, const RayPacket<floa
     return rough;
 }
 
-/// Rays in double, and where they are at a rough root relative to a point.
+/// Rays in double, and their points at a rough root, relative to `base`.
 template <Origin O>
 struct WidePlace {
     BothHalves<Vec3v<double>> dir;
     BothHalves<vreal<double>> t;
     BothHalves<Vec3v<double>> place;
 
-    WidePlace(const RayPacket<float>& rays, const vreal<float>& rough, const float (&eye)[3],
-              const double (&base)[3])
+    WidePlace(const RayPacket<float>& rays, const vreal<float>& rough,
+              const float (&shared_origin)[3], const double (&base)[3])
         : dir(widen(rays.dir)), t{widen_low(rough), widen_high(rough)}
     {
-        const BothHalves<Vec3v<double>> start = starts_from<O>(rays, eye, base);
+        const BothHalves<Vec3v<double>> start = starts_from<O>(rays, shared_origin, base);
         place = {madd<double>(t.low, dir.low, start.low),
                  madd<double>(t.high, dir.high, start.high)};
     }
 };
 
-/// Moves hits `dt` on from a rough root. With Refine::t alone points are rounded a few times, which
+/// Moves hits by `dt` from a rough root. With Refine::t points are rounded a few times, which
 /// is_behind() allows for.
 template <Refine R, Origin O>
 inline void move_from(CommonHit& hit, const WidePlace<O>& wide, const RoughCommon& rough,
-                      const vreal<float>& dt, const RayPacket<float>& rays, const float (&eye)[3])
+                      const vreal<float>& dt, const RayPacket<float>& rays,
+                      const float (&shared_origin)[3])
 {
     hit.t = rough.t + dt;
     if constexpr (R == Refine::place) {
-        const BothHalves<Vec3v<double>> org = wide_origins<O>(rays, eye);
+        const BothHalves<Vec3v<double>> org = wide_origins<O>(rays, shared_origin);
         hit.point = narrow(madd<double>(wide.t.low + widen_low(dt), wide.dir.low, org.low),
                            madd<double>(wide.t.high + widen_high(dt), wide.dir.high, org.high));
     } else {
@@ -155,14 +157,14 @@ inline void move_from(CommonHit& hit, const WidePlace<O>& wide, const RoughCommo
     }
 }
 
-/// Refines hits at a rough root; returns the lanes for which one step of Newton's was enough. With
-/// Refine::t alone there are no normals.
+/// Refines hits at a rough root. Returns the lanes for which one Newton step sufficed. With
+/// Refine::t normals are not set.
 template <Refine R, Origin O>
 inline std::uint32_t refine_common(CommonHit& hit, const CommonSphere& sphere,
                                    const RoughCommon& rough, const RayPacket<float>& rays,
-                                   const float (&eye)[3])
+                                   const float (&shared_origin)[3])
 {
-    const WidePlace<O> wide(rays, rough.t, eye, sphere.exact_center);
+    const WidePlace<O> wide(rays, rough.t, shared_origin, sphere.exact_center);
     const auto& [low, high] = wide.place;
     const vreal<double> radius2(sphere.exact_radius2);
     const vreal<float> value = narrow(dot(low, low) - radius2, dot(high, high) - radius2);
@@ -171,17 +173,17 @@ inline std::uint32_t refine_common(CommonHit& hit, const CommonSphere& sphere,
     if constexpr (R == Refine::place)
         hit.outward = scale<float>(vreal<float>(sphere.inverse_radius),
                                    narrow(low, high) + scale<float>(dt, rays.dir));
-    move_from<R>(hit, wide, rough, dt, rays, eye);
+    move_from<R>(hit, wide, rough, dt, rays, shared_origin);
     return is_surely_enough(rough.t, rays.dir2, slope, dt, rays.t_min);
 }
 
-/// The same on an anchored sphere.
+/// The same for a ground.
 template <Refine R, Origin O>
 inline std::uint32_t refine_common(CommonHit& hit, const CommonGround& ground,
                                    const RoughCommon& rough, const RayPacket<float>& rays,
-                                   const float (&eye)[3])
+                                   const float (&shared_origin)[3])
 {
-    const WidePlace<O> wide(rays, rough.t, eye, ground.exact_base);
+    const WidePlace<O> wide(rays, rough.t, shared_origin, ground.exact_base);
     const auto& [low, high] = wide.place;
     const vreal<double> curvature(ground.exact_curvature);
     const vreal<double> offset(ground.exact_offset);
@@ -195,12 +197,11 @@ inline std::uint32_t refine_common(CommonHit& hit, const CommonGround& ground,
     if constexpr (R == Refine::place)
         hit.outward = madd<float>(vreal<float>(ground.curvature), scale<float>(dt, rays.dir),
                                   narrow(g_low, g_high));
-    move_from<R>(hit, wide, rough, dt, rays, eye);
+    move_from<R>(hit, wide, rough, dt, rays, shared_origin);
     return is_surely_enough(rough.t, rough.bend, vreal<float>(ground.side) * slope, dt, rays.t_min);
 }
 
-/// The lanes of `active` whose rays may have a ball before them; the rest of what is returned is
-/// set where there are any.
+/// The lanes of `active` that may hit a ball. The other results are set only if there are any.
 template <Origin O>
 inline NearBall near_ball(const CommonBall& ball, const RayPacket<float>& rays,
                           std::uint32_t active)
@@ -218,7 +219,8 @@ inline NearBall near_ball(const CommonBall& ball, const RayPacket<float>& rays,
     return near;
 }
 
-/// Whether another sphere is behind the hits for sure: they are outside, and the rays nearing it.
+/// Whether another sphere is certainly behind the hits: the hits are outside of it and the rays
+/// approach it.
 inline bool is_behind(const CommonObjects& common, const CommonSphere& sphere,
                       const Vec3v<float>& point, const RayPacket<float>& rays, std::uint32_t hits)
 {
@@ -228,8 +230,8 @@ inline bool is_behind(const CommonObjects& common, const CommonSphere& sphere,
                                               (dot(from, rays.dir) < vreal<float>(0.0f))))) == 0;
 }
 
-/// The same of a ground: rays and hits are in front of its top, or the rays go away from it, or
-/// still nearer at the hit.
+/// The same for a ground: rays and hits are in front of its top, or the rays run away from it, or
+/// still approach it at the hit.
 template <Origin O>
 inline bool is_behind(const CommonObjects& common, const CommonGround& ground,
                       const Vec3v<float>& point, const vreal<float>& t,
@@ -239,7 +241,7 @@ inline bool is_behind(const CommonObjects& common, const CommonGround& ground,
     const vreal<float> offset(ground.top_offset);
     std::uint32_t above = bits(dot(top, point) > offset) & ~far_lanes(common, point);
     if constexpr (O == Origin::shared)
-        above = ground.eye_above ? above : 0;
+        above = ground.origin_above ? above : 0;
     else
         above &= bits(dot(top, rays.org) > offset);
     if ((hits & ~above) == 0)
@@ -255,16 +257,17 @@ inline bool is_behind(const CommonObjects& common, const CommonGround& ground,
     filter.offset = ground.offset;
     filter.slope_error = __builtin_sqrtf(ground.slope_error2) * inflation;
     filter.value_error = ground.value_error;
-    const AnchoredLine line = line_of<false>(filter, rays, RayScale(rays));
+    const AnchoredLine line = line_of<Origin::any>(filter, rays, RayScale(rays));
     const vreal<float> further = t * vreal<float>(1.0f + 0x1p-20f);
     return (hits & ~above & ~bits(stays_above(line, further))) == 0;
 }
 
-/// The same among grounds alone, where no sphere is near.
+/// find_common_sphere() if no sphere is near.
 template <Refine R, Origin O>
 inline bool find_common_ground(CommonHit& hit, const CommonObjects& common,
                                const CommonLists& candidates, const RayPacket<float>& rays,
-                               const float (&eye)[3], std::int32_t own, std::uint32_t active)
+                               const float (&shared_origin)[3], std::int32_t own,
+                               std::uint32_t active)
 {
     const CommonGround* first = nullptr;
     bool is_only = true;
@@ -287,7 +290,7 @@ inline bool find_common_ground(CommonHit& hit, const CommonObjects& common,
         return false;
     hit.lanes = nearest.open;
     hit.surface = first->surface;
-    if ((hit.lanes & ~refine_common<R, O>(hit, *first, nearest, rays, eye)) != 0)
+    if ((hit.lanes & ~refine_common<R, O>(hit, *first, nearest, rays, shared_origin)) != 0)
         return false;
     if (is_only)
         return true;
@@ -298,11 +301,32 @@ inline bool find_common_ground(CommonHit& hit, const CommonObjects& common,
     return true;
 }
 
-/// The same among spheres and grounds.
+/// Whether all grounds are certainly behind hits with a sphere, and the lanes that miss the sphere
+/// miss the grounds too. `is_whole`: all lanes hit the sphere.
+template <Origin O>
+inline bool grounds_are_behind(const CommonHit& hit, const CommonObjects& common,
+                               const CommonLists& candidates, const RayPacket<float>& rays,
+                               std::int32_t own, std::uint32_t active, bool is_whole)
+{
+    for (const CommonGround& ground : candidates.grounds) {
+        if (ground.surface == own ||
+            is_behind<O>(common, ground, hit.point, hit.t, rays, hit.lanes)) {
+            if (is_whole || ground.surface == own)
+                continue;
+            if (rough_common<O>(ground, rays, active & ~hit.lanes).open == 0)
+                continue;
+        }
+        return false;
+    }
+    return true;
+}
+
+/// find_common_hit() among spheres and grounds.
 template <Refine R, Origin O>
 inline bool find_common_sphere(CommonHit& hit, const CommonObjects& common,
                                const CommonLists& candidates, const RayPacket<float>& rays,
-                               const float (&eye)[3], std::int32_t own, std::uint32_t active)
+                               const float (&shared_origin)[3], std::int32_t own,
+                               std::uint32_t active)
 {
     const CommonSphere* first = nullptr;
     const CommonSphere* second = nullptr;
@@ -324,33 +348,22 @@ inline bool find_common_sphere(CommonHit& hit, const CommonObjects& common,
         }
     }
     if (first == nullptr)
-        return find_common_ground<R, O>(hit, common, candidates, rays, eye, own, active);
+        return find_common_ground<R, O>(hit, common, candidates, rays, shared_origin, own, active);
     const RoughCommon rough = rough_common(*first, nearest, rays);
     if (rough.sure != rough.open)
         return false;
     hit.lanes = rough.sure;
     hit.surface = first->body.first;
-    if ((hit.lanes & ~refine_common<R, O>(hit, *first, rough, rays, eye)) != 0)
+    if ((hit.lanes & ~refine_common<R, O>(hit, *first, rough, rays, shared_origin)) != 0)
         return false;
-    // Something else is behind what all rays hit, or there is nothing else.
+    // A second sphere has to be behind a hit that all rays have.
     const bool is_whole = hit.lanes == active;
     if (second != nullptr && !(is_whole && is_behind(common, *second, hit.point, rays, active)))
         return false;
-    for (const CommonGround& ground : candidates.grounds) {
-        if (ground.surface == own ||
-            is_behind<O>(common, ground, hit.point, hit.t, rays, hit.lanes)) {
-            // The lanes that miss the sphere have to miss the ground, too.
-            if (is_whole || ground.surface == own)
-                continue;
-            if (rough_common<O>(ground, rays, active & ~hit.lanes).open == 0)
-                continue;
-        }
-        return false;
-    }
-    return true;
+    return grounds_are_behind<O>(hit, common, candidates, rays, own, active, is_whole);
 }
 
-/// Whether a packet passes all balls but that of the body its rays start on.
+/// Whether a packet misses all balls, except that of the object its rays start on.
 template <Origin O>
 inline bool passes_balls(const CommonLists& candidates, const RayPacket<float>& rays,
                          std::int32_t own, std::uint32_t active)
@@ -361,18 +374,18 @@ inline bool passes_balls(const CommonLists& candidates, const RayPacket<float>& 
     return true;
 }
 
-/// Finds the hits of a packet where they are on one surface. False where that can't be told; `hit`
-/// is then of no use. Rays start among the origins of `common`, their shared one at `eye`, and are
-/// certifiable(). `own` is the surface that all start on, whose body they don't meet again, or -1
-/// for none.
+/// Finds the hits of a packet if they are all on one surface. Returns false if that cannot be
+/// decided; then `hit` is meaningless. Rays start among the origins of `common` (`shared_origin` is
+/// their shared origin) and are certifiable(). `own` is the surface that all rays start on, whose
+/// object they do not hit again; -1 for none.
 template <Refine R, Origin O>
 inline bool find_common_hit(CommonHit& hit, const CommonObjects& common,
                             const CommonLists& candidates, const RayPacket<float>& rays,
-                            const float (&eye)[3], std::int32_t own, std::uint32_t active)
+                            const float (&shared_origin)[3], std::int32_t own, std::uint32_t active)
 {
     hit.lanes = 0;
     return passes_balls<O>(candidates, rays, own, active) &&
-           find_common_sphere<R, O>(hit, common, candidates, rays, eye, own, active);
+           find_common_sphere<R, O>(hit, common, candidates, rays, shared_origin, own, active);
 }
 
 }  // namespace

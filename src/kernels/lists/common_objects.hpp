@@ -5,53 +5,54 @@
 #include "kernels/lists/borrowed_list.hpp"
 #include "kernels/precision/lone_sphere.hpp"
 
-// Spheres, anchored spheres and planes with bounds for the origins of a group of rays and with what
-// refining needs of them, for packets that mostly hit one object (common_hit.hpp), and balls around
-// what is looked at by its own test alone.
+// Spheres, anchored spheres and planes for packets that mostly hit one object (common_hit.hpp):
+// with error bounds for a set of ray origins, and with the values that refining needs. Quadrics and
+// polygons have a bounding ball.
 namespace packtrace::PACKTRACE_ISA {
 namespace {
 
-/// A ball that holds an object, with its bounds for some origins (sphere_filter.hpp).
+/// A ball that contains an object, with error bounds (sphere_filter.hpp).
 struct CommonBall {
     float center[3];
-    float from_center[3];  ///< of the eye, from there
+    float from_center[3];  ///< from the centre to the shared origin
     float outer2;
-    float slack2;  ///< square of what the slope w·d may be off by, per |d|
+    float slack2;  ///< squared error of the slope w·d, per |d|
     Body body;
 };
 
-/// A sphere, and its record for refining.
+/// A sphere, with its exact record for refining.
 struct CommonSphere : CommonBall {
     float inner2;
-    float clear2;  ///< squared radius that points among the origins are outside by
+    float clear2;  ///< squared radius; points among the origins that are further away are outside
     float radius2;
     float inverse_radius;
     double exact_center[3];
     double exact_radius2;
 };
 
-/// An anchored sphere, or a plane with no curvature, likewise: the form that is refined, rounded,
-/// and the errors of its terms.
+/// A ground: an anchored sphere, or a plane as one with curvature 0. It has the exact equation, the
+/// rounded one, and the errors of its terms.
 struct CommonGround {
     float base[3], normal[3], curvature, offset;
-    float eye_gradient[3], eye_value;  ///< of the form at the eye
-    float value_error;                 ///< of F(0)
-    float slope_error2;                ///< square of that of b, per |d|
-    float discriminant_error;          ///< per d·d
-    float side;                ///< -1 for a plane whose normal points away from the eye, else 1
-    float top[3], top_offset;  ///< a plane that it is behind; points behind that are not told of
-    bool eye_above;            ///< the eye is in front of that
+    float shared_gradient[3], shared_value;  ///< of the equation at the shared origin
+    float value_error;                       ///< error of F(0)
+    float slope_error2;                      ///< squared error of b, per |d|
+    float discriminant_error;                ///< error of the discriminant, per d·d
+    float side;  ///< -1 for a plane whose normal points away from the shared origin, else 1
+    float top[3], top_offset;  ///< a plane that the ground is behind; points behind that plane are
+                               ///< not decided
+    bool origin_above;         ///< the shared origin is in front of that plane
     double exact_base[3], exact_normal[3], exact_curvature, exact_offset;
     std::int32_t surface;
 };
 
-/// Objects of a scene, in the order of its lists.
+/// Objects of a scene, in the order of the scene's lists.
 struct CommonLists {
     BorrowedList<CommonSphere> spheres;
     BorrowedList<CommonGround> grounds;  ///< anchored spheres, then planes
     BorrowedList<CommonBall> balls;      ///< around quadrics, then polygons
 
-    /// Room for all of a scene.
+    /// Takes memory for all objects of a scene.
     template <class Arena>
     void take(Arena& arena, const abi::GeometryView<float>& scene)
     {
@@ -72,15 +73,15 @@ struct CommonLists {
     }
 };
 
-/// The objects of a scene for the origins of a group.
+/// The objects of a scene, with error bounds for a set of ray origins.
 struct CommonObjects : CommonLists {
-    float center[3] = {};  ///< of the origins
-    float near2 = 0;       ///< square of their radius, and a little less
-    bool are_all = false;  ///< bounds hold, and these are all objects that rays may meet
+    float center[3] = {};  ///< centre of the origins
+    float near2 = 0;       ///< squared radius of the origins, slightly reduced
+    bool are_all = false;  ///< bounds hold, and these are all objects that the rays may hit
 };
 
-/// A relative margin for whatever rounds in tests of points, and for places that rays start or end
-/// at, which are lifted off surfaces: 64 roundoffs, four times and more of what is lost.
+/// A relative margin for rounding errors in tests of points, and for the offsets of points at which
+/// rays start or end: 64 roundoffs, at least four times what is lost.
 inline constexpr double clear_slack = 64.0 * 0x1p-24;
 inline double distance_of(const double (&a)[3], const double (&b)[3])
 {
@@ -90,7 +91,7 @@ inline double distance_of(const double (&a)[3], const double (&b)[3])
     return __builtin_sqrt(sum);
 }
 
-/// A length that no point of the origins, nor a light, is further from the world's origin.
+/// An upper bound of the distance of the ray origins and lights from the world's origin.
 inline double extent_of(const Origins& origins)
 {
     double center2 = 0;
@@ -99,28 +100,28 @@ inline double extent_of(const Origins& origins)
     return __builtin_sqrt(center2) + double{origins.radius};
 }
 
-/// Whether magnitudes are such that squares of single precision hold.
+/// Whether squares of such magnitudes neither overflow nor underflow in single precision.
 inline bool is_moderate(double extent)
 {
     return extent < 1e8 && extent > 1e-8;
 }
 
-/// The radius that a shadow ray must pass a ball's centre by to be clear of it.
+/// The distance from a ball's centre at which a shadow ray certainly misses the ball.
 inline double clear_radius(const RoundedBall& ball, double extent)
 {
     return double{ball.radius} + double{ball.error} +
            clear_slack * (extent + double{ball.radius} + size_of(ball.center));
 }
 
-/// A ground's form at some places.
+/// The equation of a ground at some points.
 inline AnchoredOrigin<float> form_at(const CommonGround& ground, const Vec3v<float>& place)
 {
     return anchored_origin<float>(ground.base, ground.normal, ground.curvature, ground.offset,
                                   place);
 }
 
-/// The errors of a ground's form for origins up to `distance` from its base. Rounding moves the
-/// base itself, too.
+/// Sets the errors of a ground's equation for ray origins up to `distance` from its base. Rounding
+/// of the base is included.
 inline void set_ground_errors(CommonGround& ground, double distance)
 {
     double moved = 0;
@@ -129,7 +130,7 @@ inline void set_ground_errors(CommonGround& ground, double distance)
     AnchoredFilter errors{};
     errors.curvature = ground.curvature;
     errors.offset = ground.offset;
-    set_anchored_errors(errors, distance, false);
+    set_anchored_errors(errors, distance, Origin::any);
     const double size = 1.0 + ground.exact_curvature * distance;
     const double slope = double{errors.slope_error} + 2.0 * ground.exact_curvature * moved;
     ground.value_error = above(double{errors.value_error} + 3.0 * size * moved);
@@ -138,27 +139,28 @@ inline void set_ground_errors(CommonGround& ground, double distance)
         above(double{errors.discriminant_error} + 8.0 * size * ground.exact_curvature * moved);
 }
 
-/// Sets the plane through `point` with the unit `normal` that a ground is behind.
+/// Sets the plane that a ground is behind: through `point` with the unit `normal`.
 inline void set_top(CommonGround& ground, const double (&point)[3], const double (&normal)[3],
-                    const Origins& origins, const float (&eye)[3])
+                    const Origins& origins, const float (&shared_origin)[3])
 {
     double size = extent_of(origins);
     double level = 0;
-    double eye_level = 0;
+    double origin_level = 0;
     for (int axis = 0; axis < 3; ++axis) {
         ground.top[axis] = static_cast<float>(normal[axis]);
         level += normal[axis] * point[axis];
-        eye_level += normal[axis] * double{eye[axis]};
+        origin_level += normal[axis] * double{shared_origin[axis]};
         size += __builtin_fabs(point[axis]);
     }
     const double slack = clear_slack * size;
     ground.top_offset = above(level + slack + 0x1p-22 * __builtin_fabs(level));
-    ground.eye_above = eye_level > level + slack;
+    ground.origin_above = origin_level > level + slack;
 }
 
-/// Rounds a form, and finds its errors for some origins, of which `eye` is one.
+/// Rounds an equation, and sets its errors for `origins`, of which `shared_origin` is one.
 inline void set_form(CommonGround& ground, const double (&base)[3], const double (&normal)[3],
-                     double curvature, double offset, const Origins& origins, const float (&eye)[3])
+                     double curvature, double offset, const Origins& origins,
+                     const float (&shared_origin)[3])
 {
     double distance = double{origins.radius};
     for (int axis = 0; axis < 3; ++axis) {
@@ -173,18 +175,20 @@ inline void set_form(CommonGround& ground, const double (&base)[3], const double
     ground.curvature = static_cast<float>(curvature);
     ground.offset = static_cast<float>(offset);
     set_ground_errors(ground, distance * 1.00001);
-    const AnchoredOrigin<float> form = form_at(ground, broadcast(eye));
-    ground.eye_gradient[0] = first_lane<float>(form.g.x);
-    ground.eye_gradient[1] = first_lane<float>(form.g.y);
-    ground.eye_gradient[2] = first_lane<float>(form.g.z);
-    ground.eye_value = first_lane<float>(form.constant);
+    const AnchoredOrigin<float> form = form_at(ground, broadcast(shared_origin));
+    ground.shared_gradient[0] = first_lane<float>(form.g.x);
+    ground.shared_gradient[1] = first_lane<float>(form.g.y);
+    ground.shared_gradient[2] = first_lane<float>(form.g.z);
+    ground.shared_value = first_lane<float>(form.constant);
 }
 
-/// An anchored sphere; its top touches it where it is nearest to all that is near.
+/// Fills a ground from an anchored sphere. Its top plane touches it at the point closest to the
+/// centre of the origins.
 inline void fill_ground(CommonGround& ground, const abi::AnchoredSphere<double>& shape,
-                        const Origins& origins, const float (&eye)[3])
+                        const Origins& origins, const float (&shared_origin)[3])
 {
-    set_form(ground, shape.anchor, shape.normal, shape.curvature, shape.offset, origins, eye);
+    set_form(ground, shape.anchor, shape.normal, shape.curvature, shape.offset, origins,
+             shared_origin);
     ground.side = 1.0f;
     const double to[3] = {origins.center[0], origins.center[1], origins.center[2]};
     const double distance = distance_of(to, shape.center);
@@ -195,33 +199,33 @@ inline void fill_ground(CommonGround& ground, const abi::AnchoredSphere<double>&
             distance > 0 ? (to[axis] - shape.center[axis]) / distance : shape.normal[axis];
         point[axis] = shape.center[axis] + shape.radius * normal[axis];
     }
-    set_top(ground, point, normal, origins, eye);
+    set_top(ground, point, normal, origins, shared_origin);
 }
 
-/// A plane, as seen from the side that the eye is on.
+/// Fills a ground from a plane, as seen from the side of the shared origin.
 inline void fill_ground(CommonGround& ground, const abi::PlaneRecord<double>& shape,
-                        const Origins& origins, const float (&eye)[3])
+                        const Origins& origins, const float (&shared_origin)[3])
 {
-    set_form(ground, shape.point, shape.normal, 0.0, 0.0, origins, eye);
+    set_form(ground, shape.point, shape.normal, 0.0, 0.0, origins, shared_origin);
     double height = 0;
     for (int axis = 0; axis < 3; ++axis)
-        height += shape.normal[axis] * (double{eye[axis]} - shape.point[axis]);
+        height += shape.normal[axis] * (double{shared_origin[axis]} - shape.point[axis]);
     ground.side = height < 0 ? -1.0f : 1.0f;
     const double side = double{ground.side};
     const double normal[3] = {side * shape.normal[0], side * shape.normal[1],
                               side * shape.normal[2]};
-    set_top(ground, shape.point, normal, origins, eye);
+    set_top(ground, shape.point, normal, origins, shared_origin);
 }
 
-/// Sets what is to be known of any ball; returns the bounds.
+/// Fills the values of any ball; returns its error bounds.
 inline SphereBounds<float> fill_ball(CommonBall& common, const RoundedBall& ball,
-                                     const Origins& origins, const float (&eye)[3])
+                                     const Origins& origins, const float (&shared_origin)[3])
 {
-    // Of an origin among them, its distance from the centre counts whole.
+    // The distance between a ball among the origins and their centre counts fully.
     double distance = double{origins.radius};
     for (int axis = 0; axis < 3; ++axis) {
         common.center[axis] = ball.center[axis];
-        common.from_center[axis] = eye[axis] - ball.center[axis];
+        common.from_center[axis] = shared_origin[axis] - ball.center[axis];
         distance += __builtin_fabs(double{ball.center[axis]} - double{origins.center[axis]});
     }
     const float length = above(distance * double{inflation} + double{ball.error});
@@ -235,10 +239,10 @@ inline SphereBounds<float> fill_ball(CommonBall& common, const RoundedBall& ball
 }
 
 inline void fill_sphere(CommonSphere& sphere, const abi::SceneView<float>& scene, int i,
-                        const Origins& origins, const float (&eye)[3])
+                        const Origins& origins, const float (&shared_origin)[3])
 {
     const RoundedBall ball = ball_of(scene.spheres, i);
-    const SphereBounds<float> bounds = fill_ball(sphere, ball, origins, eye);
+    const SphereBounds<float> bounds = fill_ball(sphere, ball, origins, shared_origin);
     sphere.inner2 = bounds.inner2;
     const double clear = clear_radius(ball, extent_of(origins));
     sphere.clear2 = above(clear * clear * (1.0 + clear_slack));
@@ -251,13 +255,14 @@ inline void fill_sphere(CommonSphere& sphere, const abi::SceneView<float>& scene
     sphere.inverse_radius = 1.0f / radius;
 }
 
-/// Origins this many times as far from the middle of what is bounded as its edge, or as the eye,
-/// are still near: error bounds are for all of them, so that more would make more rays unsure. On
-/// note 001's ground 64 leave 1.5 % of the hits beyond, and 8 left an eighth, each packet of which
-/// has bounds of its own.
+/// Ray origins count as near up to this multiple of the radius of all bounded objects and the
+/// camera. Error bounds hold for all near origins, so a larger multiple would make more rays
+/// unsure. On note 001's ground 1.5 % of the hits are beyond 64 times, and one eighth beyond 8
+/// times; each packet with such hits gets error bounds of its own.
 inline constexpr double near_scale = 64.0;
 
-/// The ball of origins that bounds are for: around the bounded objects and the box of those known.
+/// The ball of ray origins that error bounds are computed for: around the bounded objects and the
+/// box of known origins.
 inline Origins near_origins(const abi::SceneView<float>& scene, const float (&low_origin)[3],
                             const float (&high_origin)[3])
 {
@@ -277,17 +282,17 @@ inline Origins near_origins(const abi::SceneView<float>& scene, const float (&lo
         enclose(ball_of(scene.spheres, i));
     for_each_other(scene, [&](const auto& record) { enclose(ball_of(record)); });
     Origins origins = origins_in(low, high);
-    // Around one origin alone: what it stands on counts.
+    // If there is no bounded object and only one origin, that origin's surroundings count too.
     origins.radius = max(origins.radius, 1.0f) * static_cast<float>(near_scale);
     return origins;
 }
 
-/// With more objects than these, testing one after the other takes longer than what is saved.
+/// With more objects, testing them one by one takes longer than it saves.
 inline constexpr int most_common_objects = 32;
 /// Smaller spheres lose digits to underflow.
 inline constexpr float least_common_radius = 1e-15f;
 
-/// Whether the objects of a scene are so few, and stand in lists.
+/// Whether a scene has so few objects, all in lists.
 inline bool has_few_objects(const abi::GeometryView<float>& scene)
 {
     return scene.tree.empty() && scene.spheres.count + scene.anchored_spheres.count +
@@ -296,12 +301,13 @@ inline bool has_few_objects(const abi::GeometryView<float>& scene)
                                      most_common_objects;
 }
 
-/// Prepares those objects of a scene for rays from `origins` that are `wanted(surface)` by their
-/// first surface; the rays meet no other. `eye` is one of the origins, and that of rays that share
-/// theirs: planes are told of for rays from its side.
+/// Fills `common` with the objects of a scene whose first surface is `wanted(surface)`, for rays
+/// from `origins` that hit no other object. `shared_origin` is one of the origins, the shared one
+/// if rays share it; planes are prepared for rays from its side.
 template <class Wanted>
 inline void fill_common(CommonObjects& common, const abi::SceneView<float>& scene,
-                        const Origins& origins, const float (&eye)[3], const Wanted& wanted)
+                        const Origins& origins, const float (&shared_origin)[3],
+                        const Wanted& wanted)
 {
     for (int axis = 0; axis < 3; ++axis)
         common.center[axis] = origins.center[axis];
@@ -314,14 +320,14 @@ inline void fill_common(CommonObjects& common, const abi::SceneView<float>& scen
     for (int i = 0; i < scene.spheres.count; ++i) {
         if (!wanted(scene.spheres.surface[i]))
             continue;
-        fill_sphere(common.spheres.next(), scene, i, origins, eye);
+        fill_sphere(common.spheres.next(), scene, i, origins, shared_origin);
         common.are_all &= scene.spheres.radius[i] > least_common_radius;
     }
     for_each_other(scene, [&](const auto& record) {
         const RoundedBall ball = ball_of(record);
         if (!wanted(ball.body.first))
             return;
-        fill_ball(common.balls.next(), ball, origins, eye);
+        fill_ball(common.balls.next(), ball, origins, shared_origin);
         common.are_all &= ball.radius < __builtin_inff();
     });
     const auto fill = [&](const auto& list, const auto* shapes) {
@@ -331,21 +337,21 @@ inline void fill_common(CommonObjects& common, const abi::SceneView<float>& scen
                 continue;
             CommonGround& ground = common.grounds.next();
             ground.surface = surface;
-            fill_ground(ground, shapes[scene.shapes.index[surface].record], origins, eye);
+            fill_ground(ground, shapes[scene.shapes.index[surface].record], origins, shared_origin);
         }
     };
     fill(scene.anchored_spheres, scene.shapes.anchored_spheres);
     fill(scene.planes, scene.shapes.planes);
 }
 
-/// The same of all objects.
+/// The same with all objects.
 inline void fill_common(CommonObjects& common, const abi::SceneView<float>& scene,
-                        const Origins& origins, const float (&eye)[3])
+                        const Origins& origins, const float (&shared_origin)[3])
 {
-    fill_common(common, scene, origins, eye, [](std::int32_t) { return true; });
+    fill_common(common, scene, origins, shared_origin, [](std::int32_t) { return true; });
 }
 
-/// The lanes whose places are not among the origins that bounds are for.
+/// The lanes whose points are outside the ball of origins.
 inline std::uint32_t far_lanes(const CommonObjects& common, const Vec3v<float>& place)
 {
     const Vec3v<float> from = place - broadcast(common.center);

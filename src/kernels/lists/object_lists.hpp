@@ -4,13 +4,13 @@
 
 #include <type_traits>
 
-// The objects that rays are tested against, a list of each kind: all of a scene, or those that a
-// cone of rays may meet, with what depends on the rays' origin computed once, by the operations a
-// single packet would use, so with the same bits.
+// The objects that rays are tested against, one list per kind: all objects of a scene, or those
+// that a cone of rays may hit. Values that depend only on the rays' origin are computed once, by
+// the operations that a single packet would use, so with the same bits.
 namespace packtrace::PACKTRACE_ISA {
 namespace {
 
-/// The objects as rays see them that start from one point.
+/// The objects for rays that start from one point.
 template <class Real, class List = Kinds>
 struct SharedOriginObjects;
 template <class Real, class... Kind>
@@ -22,16 +22,15 @@ struct SharedOriginObjects<Real, KindList<Kind...>>
     }
 };
 
-/// The objects with the error bounds of one group of rays: of those from one point, or of those
-/// from anywhere in a ball.
-template <bool Shared, class List = Kinds>
+/// The objects with error bounds for a set of rays: from one point, or from anywhere in a ball.
+template <Origin O, class List = Kinds>
 struct FilteredObjects;
-template <bool Shared, class... Kind>
-struct FilteredObjects<Shared, KindList<Kind...>> : ListOfKind<Kind, typename Kind::Certain>... {
-    static constexpr bool shared = Shared;
-    bool certifiable = false;  ///< the scene's sizes and the origins are such that bounds hold
+template <Origin O, class... Kind>
+struct FilteredObjects<O, KindList<Kind...>> : ListOfKind<Kind, typename Kind::Certain>... {
+    static constexpr Origin origin = O;
+    bool certifiable = false;  ///< the bounds hold for the scene's sizes and for the origins
     int count = 0;             ///< in all lists
-    Body one = {-1};           ///< of them, where there are any
+    Body one = {-1};           ///< any of the objects, if there are any
 
     bool empty() const
     {
@@ -39,7 +38,7 @@ struct FilteredObjects<Shared, KindList<Kind...>> : ListOfKind<Kind, typename Ki
     }
 };
 
-/// Some objects of a scene, as its lists have them.
+/// Some objects of a scene, as its lists store them.
 template <class Real, class List = Kinds>
 struct SelectedObjects;
 template <class Real, class... Kind>
@@ -66,13 +65,13 @@ inline const auto& objects_of(const SharedOriginObjects<Real>& objects)
 {
     return list_of<Kind>(objects);
 }
-template <class Kind, bool Shared>
-inline const auto& objects_of(const FilteredObjects<Shared>& objects)
+template <class Kind, Origin O>
+inline const auto& objects_of(const FilteredObjects<O>& objects)
 {
     return list_of<Kind>(objects);
 }
 
-/// Whether any stands in the lists.
+/// Whether the lists contain any object.
 template <abi::Features F, class Objects>
 inline bool has_objects(const Objects& objects)
 {
@@ -84,7 +83,7 @@ inline bool has_objects(const Objects& objects)
     return any;
 }
 
-/// Fills `objects` with what rays of `cone`, all from its base, may meet.
+/// Fills `objects` with those that rays of `cone` may hit; all rays start at its base.
 template <abi::Features F, class Real>
 inline void find_objects(SharedOriginObjects<Real>& objects, const Cone<Real>& cone,
                          const abi::GeometryView<Real>& scene)
@@ -95,7 +94,7 @@ inline void find_objects(SharedOriginObjects<Real>& objects, const Cone<Real>& c
     });
 }
 
-/// Fills `objects` with what rays of `cone` may meet.
+/// Fills `objects` with those that rays of `cone` may hit.
 template <abi::Features F, class Real>
 inline void find_objects(SelectedObjects<Real>& objects, const Cone<Real>& cone,
                          const abi::GeometryView<Real>& scene)
@@ -106,16 +105,16 @@ inline void find_objects(SelectedObjects<Real>& objects, const Cone<Real>& cone,
     });
 }
 
-/// Fills `objects` with what rays from `origins` may meet; `cone` bounds them.
-template <abi::Features F, bool Shared>
-[[gnu::noinline]] void filter_objects(FilteredObjects<Shared>& objects, const Origins& origins,
+/// Fills `objects` with those that rays from `origins` may hit; `cone` bounds the rays.
+template <abi::Features F, Origin O>
+[[gnu::noinline]] void filter_objects(FilteredObjects<O>& objects, const Origins& origins,
                                       const Cone<float>& cone, const abi::SceneView<float>& scene)
 {
     objects.certifiable = scene.certifiable && certifiable(origins);
     objects.count = 0;
     for_each_kind<F>([&](auto kind) {
         auto& list = list_of<decltype(kind)>(objects);
-        find_certain<Shared>(list, origins, cone, kind.list(scene), kind.list(*scene.wide));
+        find_certain<O>(list, origins, cone, kind.list(scene), kind.list(*scene.wide));
         objects.count += list.count;
         if (list.count > 0)
             objects.one = body_of(object_at(list, 0));
@@ -123,16 +122,16 @@ template <abi::Features F, bool Shared>
     });
 }
 
-/// What the rays of a cone from one point may meet.
+/// Fills `objects` with those that rays of `cone` may hit; all rays start at its base.
 template <abi::Features F>
-inline void find_objects(FilteredObjects<true>& objects, const Cone<float>& cone,
+inline void find_objects(FilteredObjects<Origin::shared>& objects, const Cone<float>& cone,
                          const abi::SceneView<float>& scene)
 {
-    filter_objects<F, true>(objects, origins_at(cone.base), cone, scene);
+    filter_objects<F, Origin::shared>(objects, origins_at(cone.base), cone, scene);
 }
 
-/// Puts what rays from a shared origin may meet into the order in which closest hits are found
-/// fastest.
+/// Sorts the objects that rays from a shared origin may hit into the order in which closest hits
+/// are found fastest.
 template <abi::Features F, class Objects>
 inline void sort_by_distance(Objects& objects)
 {
@@ -144,19 +143,20 @@ inline void sort_by_distance(Objects& objects)
     });
 }
 
-/// What rays from `origins` may meet, wherever they go.
+/// Fills `objects` with those that rays from `origins` may hit in any direction.
 template <abi::Features F>
-inline void find_objects(FilteredObjects<false>& objects, const Origins& origins,
+inline void find_objects(FilteredObjects<Origin::any>& objects, const Origins& origins,
                          const abi::SceneView<float>& scene)
 {
-    filter_objects<F, false>(objects, origins, Cone<float>{}, scene);
+    filter_objects<F, Origin::any>(objects, origins, Cone<float>{}, scene);
 }
 
-/// So many spheres of a hierarchy are picked for lists, at most.
+/// The largest number of spheres of a BVH that are picked into lists.
 inline constexpr int most_picked_spheres = 20;
 
-/// Gives `objects`, which need not be initialised, room for those of a scene with features `F`, and
-/// for spheres of its hierarchy. In place: a copy of lists costs a tile more than to fill them.
+/// Takes memory in `objects`, which need not be initialised, for the objects of a scene with
+/// features `F` and for spheres picked from its BVH. It works in place: copying the lists would
+/// cost a tile more than filling them.
 template <abi::Features F, class Objects, class Arena, class Real>
 inline void take_objects(Arena& arena, Objects& objects, const abi::GeometryView<Real>& scene)
 {
@@ -166,8 +166,8 @@ inline void take_objects(Arena& arena, Objects& objects, const abi::GeometryView
     });
     for_each_kind<F>([&](auto kind) {
         const bool picks = std::is_same_v<decltype(kind), Sphere> && !scene.tree.empty();
-        take_room(arena, list_of<decltype(kind)>(objects),
-                  kind.list(scene).count + (picks ? most_picked_spheres : 0));
+        take_memory(arena, list_of<decltype(kind)>(objects),
+                    kind.list(scene).count + (picks ? most_picked_spheres : 0));
         return true;
     });
 }

@@ -6,25 +6,27 @@
 
 #include <type_traits>
 
-// What a tile's rays are tested against: with Features::exact objects with their error bounds, else
-// what depends on a shared origin alone, computed once.
+// The types of the objects that a tile's rays are tested against: with Features::exact objects with
+// error bounds, else objects with values that depend on a shared origin.
 namespace packtrace::PACKTRACE_ISA {
 namespace {
 
 template <abi::Features F, class Real>
-using FromPoint = std::conditional_t<F.exact, FilteredObjects<true>, SharedOriginObjects<Real>>;
+using FromPoint =
+    std::conditional_t<F.exact, FilteredObjects<Origin::shared>, SharedOriginObjects<Real>>;
 template <abi::Features F, class Real>
-using FromAnywhere = std::conditional_t<F.exact, FilteredObjects<false>, SelectedObjects<Real>>;
+using FromAnywhere =
+    std::conditional_t<F.exact, FilteredObjects<Origin::any>, SelectedObjects<Real>>;
 
-/// What may stand between a light and hits: one of the two, by the light's kind.
+/// The possible occluders between a light and hits. Which of the two is used depends on the light.
 template <abi::Features F, class Real>
 struct LightObjects {
     FromPoint<F, Real> from_point;
     FromAnywhere<F, Real> along;
-    bool are_all;  ///< nothing of a hierarchy is missing
+    bool are_all;  ///< they include all objects of the BVH that may be occluders
 };
 
-/// Where a run of rays starts.
+/// The bounding box of consecutive values.
 template <class Real>
 inline Box<Real> box_of_run(const Real* const (&org)[3], int count)
 {
@@ -34,7 +36,7 @@ inline Box<Real> box_of_run(const Real* const (&org)[3], int count)
     return box;
 }
 
-/// The sum of a run of values.
+/// The sum of consecutive values.
 template <class Real>
 inline Real sum_of(const Real* values, int count)
 {
@@ -53,15 +55,15 @@ inline Real sum_of(const Real* values, int count)
     return sum;
 }
 
-/// Directions further apart than this from their middle bound next to nothing.
+/// Directions further than this from their mean are not worth a bound.
 template <class Real>
 inline constexpr Real least_cosine2 = Real(0.02);
-/// How much the square of a cosine may be off through rounding, with a margin.
+/// The error of the square of a cosine, with a margin.
 template <class Real>
 inline constexpr Real cosine2_slack = Real(2e-6);
 
-/// The least square of the cosine between the directions and a unit axis; below `least_cosine2` if
-/// that is so of any, or if it is no number.
+/// The smallest squared cosine between the directions and a unit axis. Below `least_cosine2` if any
+/// is, or if any is NaN.
 template <class Real>
 inline Real narrowest_cosine2(const Real* const (&dir)[3], int count, const Real (&axis)[3])
 {
@@ -82,7 +84,7 @@ inline Real narrowest_cosine2(const Real* const (&dir)[3], int count, const Real
     return low;
 }
 
-/// The cone of a run of rays from a ball.
+/// The cone of consecutive rays whose origins lie in a ball.
 template <class Real>
 inline Cone<Real> cone_of(const Real (&center)[3], Real radius, const Real* const (&dir)[3],
                           int count)
@@ -107,7 +109,7 @@ inline Cone<Real> cone_of(const Real (&center)[3], Real radius, const Real* cons
     return cone;
 }
 
-/// Prepares the objects for all rays from a point, wherever they go.
+/// Prepares the objects for rays from a point in any direction.
 template <abi::Features F, class Real>
 inline void find_from_point(FromPoint<F, Real>& objects, const Real (&point)[3],
                             const abi::SceneView<Real>& scene)
@@ -118,7 +120,7 @@ inline void find_from_point(FromPoint<F, Real>& objects, const Real (&point)[3],
     find_objects<F>(objects, anywhere, scene);
 }
 
-/// The cone of a run of rays from a box.
+/// The cone of consecutive rays whose origins lie in a box.
 template <abi::Features F, class Real>
 inline Cone<Real> cone_nearby(const Box<Real>& box, const Real* const (&dir)[3], int count)
 {
@@ -131,18 +133,18 @@ inline Cone<Real> cone_nearby(const Box<Real>& box, const Real* const (&dir)[3],
     }
 }
 
-/// Prepares the objects for rays of a cone from a box.
+/// Prepares the objects for rays of a cone whose origins lie in a box.
 template <abi::Features F, class Real>
 inline void find_nearby(FromAnywhere<F, Real>& objects, const Box<Real>& box,
                         const Cone<Real>& cone, const abi::SceneView<Real>& scene)
 {
     if constexpr (F.exact)
-        filter_objects<F, false>(objects, origins_in(box.low, box.high), cone, scene);
+        filter_objects<F, Origin::any>(objects, origins_in(box.low, box.high), cone, scene);
     else
         find_objects<F>(objects, cone, scene);
 }
 
-/// The cone of rays from a box to a light that sends none.
+/// The cone of shadow rays that start at points in a box.
 template <class Real>
 inline Cone<Real> cone_along(const Box<Real>& box, const abi::LightRecord<Real>& light)
 {

@@ -4,12 +4,12 @@
 #include "kernels/precision/own_surface.hpp"
 #include "kernels/stats/observe.hpp"
 
-// Which rays of a packet meet any object on the way to a light.
+// Which rays of a packet any object occludes before a light.
 namespace packtrace::PACKTRACE_ISA {
 namespace {
 
-/// `blocked` without the lanes whose own body is what blocks them: whether that is in the way is
-/// known without looking (leave_surface.hpp).
+/// `blocked` without the lanes that start on `body`: whether their own object occludes them is
+/// known without a test (leave_surface.hpp).
 template <class Real>
 inline std::uint32_t but_own(std::uint32_t blocked, const OwnSurface<vint<Real>>& own,
                              const Body& body)
@@ -17,7 +17,7 @@ inline std::uint32_t but_own(std::uint32_t blocked, const OwnSurface<vint<Real>>
     return blocked == 0 ? 0 : blocked & own.template lanes_on_others<Real>(body.first, body.pieces);
 }
 
-/// The lanes of `certain` that do not start on a body, for tests that take long.
+/// The lanes of `certain` that do not start on an object, for expensive tests.
 struct CertainOthers {
     const OwnSurface<vint<float>>& own;
     std::uint32_t certain;
@@ -29,8 +29,8 @@ struct CertainOthers {
     }
 };
 
-/// Calls `occluder(surface, lanes)` for each object with the lanes it blocks, until that returns
-/// false. What a lane's `own` surface blocks does not count.
+/// Calls `occluder(surface, lanes)` for each object with the lanes that it occludes, until that
+/// returns false. A lane's own object does not count.
 template <abi::Features F, class Objects, class Real, class Occluder>
 inline void visit_occluders(const RayEnd<Real>& end, const Objects& objects,
                             const RayPacket<Real>& rays, const OwnSurface<vint<Real>>& own,
@@ -53,11 +53,12 @@ inline void visit_occluders(const RayEnd<Real>& end, const Objects& objects,
     });
 }
 
-/// Whether lists may be sorted by distance: what is behind the ends of all rays is not tested then.
-/// Those of a frame's lights are not, and to ask would cost a tenth of shading.
+/// Whether lists may be sorted by distance; then the objects behind the ends of all rays are not
+/// tested. The lists of a frame's lights are not sorted, and the check would cost a tenth of
+/// shading.
 enum class Order { any, by_distance };
 
-/// How many of a list rays up to t_end are tested against.
+/// How many objects of a list rays up to t_end are tested against.
 template <Order O, class List>
 inline int tested_of(const List& list, const vreal<float>& t_end, const RayScale& scale)
 {
@@ -67,11 +68,11 @@ inline int tested_of(const List& list, const vreal<float>& t_end, const RayScale
         return list.count;
 }
 
-/// The same by certain tests, until t_end, for rays of the origins that the objects' bounds are
-/// for. Returns the lanes in which something may be in the way; those blocked may be among them.
-template <abi::Features F, Order O = Order::any, bool Shared, class Occluder>
+/// The same with error bounds, up to t_end, for rays from the origins that the bounds are for.
+/// Returns the lanes that may be occluded; lanes that certainly are may be among them.
+template <abi::Features F, Order O = Order::any, Origin From, class Occluder>
 inline std::uint32_t visit_occluders(const vreal<float>& t_end,
-                                     const FilteredObjects<Shared>& objects,
+                                     const FilteredObjects<From>& objects,
                                      const RayPacket<float>& rays,
                                      const OwnSurface<vint<float>>& own, const Occluder& occluder)
 {
@@ -79,7 +80,7 @@ inline std::uint32_t visit_occluders(const vreal<float>& t_end,
     const std::uint32_t certain = objects.certifiable ? bits(certifiable(rays)) : 0;
     std::uint32_t unsure = ~certain & all_lanes<float>;
     note_in_the_way(unsure, abi::Cause::magnitude);
-    // Whether to go on.
+    // Returns whether to continue.
     const auto take = [&](const Body& body, const Occlusion& occlusion) {
         const std::uint32_t blocked = occlusion.blocked & certain;
         unsure |= but_own<float>(occlusion.unsure, own, body);
@@ -95,7 +96,7 @@ inline std::uint32_t visit_occluders(const vreal<float>& t_end,
             if (own.all_on(body_of(object)))
                 continue;
             at.test(kind.primitive);
-            if (!take(body_of(object), occludes<Shared>(object, rays, scale, t_end, others)))
+            if (!take(body_of(object), occludes<From>(object, rays, scale, t_end, others)))
                 return false;
         }
         return true;
@@ -103,7 +104,7 @@ inline std::uint32_t visit_occluders(const vreal<float>& t_end,
     return unsure;
 }
 
-/// The lanes of `wanted` that are blocked by anything but their own surface.
+/// The lanes of `wanted` that any object except their own occludes.
 template <abi::Features F, class Objects, class Real>
 inline std::uint32_t occluded(const RayEnd<Real>& end, const Objects& objects,
                               const RayPacket<Real>& rays, const OwnSurface<vint<Real>>& own,
@@ -117,9 +118,9 @@ inline std::uint32_t occluded(const RayEnd<Real>& end, const Objects& objects,
     return wanted & ~open;
 }
 
-/// The same by certain tests.
-template <abi::Features F, Order O = Order::any, bool Shared>
-inline Occlusion occluded(const vreal<float>& t_end, const FilteredObjects<Shared>& objects,
+/// The same with error bounds.
+template <abi::Features F, Order O = Order::any, Origin From>
+inline Occlusion occluded(const vreal<float>& t_end, const FilteredObjects<From>& objects,
                           const RayPacket<float>& rays, const OwnSurface<vint<float>>& own,
                           std::uint32_t wanted)
 {

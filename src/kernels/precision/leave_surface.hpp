@@ -4,26 +4,28 @@
 #include "kernels/precision/own_surface.hpp"
 #include "kernels/simd/records.hpp"
 
-// How rays leave the surface they start on. One root of its equation along such a ray is known to
-// be 0, so that it is not looked for, and the constant is 0 whatever rounding makes of it: the
-// other root is -2 slope / bend, for every kind of surface (one_surface.hpp). Where the ray meets
-// its own body again is found once, when the ray is made, in double; the search passes over all
-// pieces of it. Of other surfaces rays keep off by what rounding does to the place they start at.
+// How rays leave the surface that they start on without hitting it at once. One root of the
+// surface's equation along such a ray is known to be 0, so it is not searched for, and the
+// equation's constant is 0 whatever its rounded value. The other root is -2 slope / bend for every
+// kind of surface (one_surface.hpp). When a ray is made, it is found once, in double, where the ray
+// hits its own object again; the search then skips all surfaces of that object. To avoid hits with
+// other surfaces at the start, the ray's origin is moved off its surface by the rounding error of
+// the start point (origin_offset()).
 namespace packtrace::PACKTRACE_ISA {
 namespace {
 
-/// Where rays meet the surface they start on again, or another piece of the same body.
+/// Where rays hit the surface that they start on again, or another surface of the same object.
 template <class Real>
 struct SecondHit {
-    vreal<Real> t;       ///< infinite for nowhere
-    vint<Real> surface;  ///< the piece that is met; of no meaning where t is infinite
+    vreal<Real> t;       ///< infinite if they do not
+    vint<Real> surface;  ///< the surface that is hit; meaningless if t is infinite
 };
 
-/// What a packet of rays starts on.
+/// Where a packet of rays starts.
 template <class Real>
 struct StartPacket {
     Vec3v<Real> point;
-    vint<Real> surface;  ///< -1: none
+    vint<Real> surface;  ///< -1: on no surface
     SecondHit<Real> second;
 };
 
@@ -40,13 +42,13 @@ inline StartPacket<Real> no_start()
     return {{zero, zero, zero}, no_surface<Real>(), no_second_hit<Real>()};
 }
 
-/// The share of a t within which another surface is compared once more with what is met again
+/// If another hit is within this share of t of the hit with the own object, both are compared again
 /// (met_again.hpp).
 template <class Real>
 inline constexpr double nearly_met = sizeof(Real) == sizeof(float) ? 0x1p-12 : 0x1p-40;
 
-/// How far the place where rays start may move what lies where they meet their own body again: by
-/// the lift off their surface, which other surfaces are met from (origin_offset), and rounding.
+/// The error of the t at which rays hit their own object again, compared with hits of other
+/// surfaces: those are searched for from the offset origin (origin_offset()), and t is rounded.
 inline vreal<float> met_again_error(const StartPacket<float>& start, const vreal<float>& dir2)
 {
     const Vec3v<float>& at = start.point;
@@ -55,9 +57,10 @@ inline vreal<float> met_again_error(const StartPacket<float>& start, const vreal
                 vreal<float>(0x1p-20f) * start.second.t);
 }
 
-/// What a search that passes over the own surface has found before it begins. With Features::exact
-/// all that is nearly met with it leaves rays unsure: retracing tells which is hit. Were it less,
-/// it would hang on how a surface is looked for which of them finds another one there unsure.
+/// The hit with which a search starts that skips the ray's own object. With Features::exact every
+/// other hit close to it makes the ray unsure, and retracing decides which is first. The interval
+/// is wide, so that whether a ray is unsure does not depend on how the other surface is searched
+/// for.
 template <abi::Features F, class Real>
 inline HitPacket<Real> start_of_search(const StartPacket<Real>& start, const vreal<Real>& dir2,
                                        const vreal<Real>& t_max)
@@ -78,7 +81,7 @@ inline HitPacket<Real> start_of_search(const StartPacket<Real>& start, const vre
         hit.t = select(again, second + error, t_max);
         hit.t_low = select(again, second - error, t_max);
     } else {
-        // What is in the same place is looked for a little further on, too.
+        // The search continues a little further, to find surfaces at the same position.
         const vreal<Real> little_beyond = second * vreal<Real>(1.0 + nearly_met<Real>);
         hit.t = select(again, min(little_beyond, t_max), t_max);
     }
@@ -93,8 +96,8 @@ inline HitAgain hit_again(const abi::ShapesView& shapes, const abi::SurfaceIndex
                       [](const auto& shape, unsigned piece) { return hit_again(shape, piece); });
 }
 
-/// Where rays from points of one surface meet it again beyond t_min, in double. `outside` are the
-/// lanes that leave it on the outer side.
+/// Where rays from points of one surface hit it again beyond t_min, in double. `outside` are the
+/// lanes that leave on the outer side.
 inline OwnCrossing second_crossing(const abi::ShapesView& shapes, const abi::SurfaceIndex& index,
                                    const Vec3v<double>& point, const Vec3v<double>& dir,
                                    const vreal<double>& t_min, vmask<double> outside)
@@ -104,7 +107,7 @@ inline OwnCrossing second_crossing(const abi::ShapesView& shapes, const abi::Sur
     });
 }
 
-/// The surface numbers of a crossing; `first` is that of the body's side.
+/// The numbers of the surfaces that are hit; `first` is the number of the object's side.
 template <class Real>
 inline vint<Real> pieces_met(std::int32_t first, std::uint32_t low_cap, std::uint32_t high_cap)
 {
@@ -115,7 +118,7 @@ inline vint<Real> pieces_met(std::int32_t first, std::uint32_t low_cap, std::uin
                   select(from_bits<Real>(high_cap), number(2), number(0)));
 }
 
-/// What is met again of the body whose side has the number `first`.
+/// Where rays hit again the object whose side has the number `first`.
 inline SecondHit<double> second_hit_of(const abi::ShapesView& shapes,
                                        const abi::SurfaceIndex& index, std::int32_t first,
                                        const Vec3v<double>& point, const Vec3v<double>& dir,
@@ -136,14 +139,14 @@ inline SecondHit<float> second_hit_of(const abi::ShapesView& shapes, const abi::
     const OwnCrossing high =
         second_crossing(shapes, index, widen_high(point), widen_high(dir), widen_high(t_min),
                         from_bits<double>((outside & all_lanes<float>) >> lanes<double>));
-    // A body that a ray leaves at once is left beyond 0 all the same.
+    // A ray that leaves its object at once still hits it beyond 0.
     const vreal<float> t =
         max(narrow(low.t, high.t), vreal<float>(std::numeric_limits<float>::denorm_min()));
     return {t, pieces_met<float>(first, narrow_bits(low.low_cap, high.low_cap),
                                  narrow_bits(low.high_cap, high.high_cap))};
 }
 
-/// The number of the body's side, of a surface of it.
+/// The number of the object's side, from the number of any of its surfaces.
 inline std::int32_t first_piece(const abi::SurfaceIndex& index, std::int32_t surface)
 {
     if (index.kind == abi::SurfaceKind::low_cap)
@@ -151,8 +154,8 @@ inline std::int32_t first_piece(const abi::SurfaceIndex& index, std::int32_t sur
     return index.kind == abi::SurfaceKind::high_cap ? surface - 2 : surface;
 }
 
-/// Lanes of a surface that HitAgain::from_anywhere is said of whose rays, leaving its outer side,
-/// surely don't meet it again.
+/// For a surface with HitAgain::from_anywhere: lanes whose rays certainly do not hit it again if
+/// they leave on the outer side.
 template <class Real>
 inline std::uint32_t leaves_for_good(const abi::ShapesView& shapes, const abi::SurfaceIndex& index,
                                      const Vec3v<Real>& dir)
@@ -165,7 +168,7 @@ inline std::uint32_t leaves_for_good(const abi::ShapesView& shapes, const abi::S
     });
 }
 
-/// Those of some lanes that may meet the body again which they start on.
+/// The lanes that may hit again the object that they start on.
 inline std::uint32_t may_hit_again(HitAgain again, std::uint32_t lanes_of, std::uint32_t outside)
 {
     if (again == HitAgain::never)
@@ -173,8 +176,8 @@ inline std::uint32_t may_hit_again(HitAgain again, std::uint32_t lanes_of, std::
     return again == HitAgain::from_inside ? lanes_of & ~outside : lanes_of;
 }
 
-/// For the lanes of `active`, each from a point of its own surface; `outside` are those that leave
-/// it on the outer side.
+/// Where rays hit again the objects that they start on, for the lanes of `active`, each from a
+/// point of its own surface. `outside` are the lanes that leave on the outer side.
 template <class Real>
 [[gnu::noinline]] SecondHit<Real> look_for_second_hit(
     const abi::ShapesView& shapes, const vint<Real>& surface, const Vec3v<Real>& point,
@@ -198,8 +201,8 @@ template <class Real>
     return hit;
 }
 
-/// Of the lanes of `active` all that are worth a search, and maybe more where they start on several
-/// surfaces.
+/// The lanes of `active` that may hit their object again. It may contain more lanes if they start
+/// on several surfaces.
 template <class Real>
 inline std::uint32_t worth_a_search(const abi::ShapesView& shapes, const vint<Real>& surface,
                                     std::uint32_t outside, std::uint32_t active)
@@ -212,8 +215,8 @@ inline std::uint32_t worth_a_search(const abi::ShapesView& shapes, const vint<Re
     return may_hit_again(hit_again(shapes, shapes.index[distinct.value()]), active, outside);
 }
 
-/// What look_for_second_hit() finds. Where that is nothing it mostly is not called: all registers
-/// are saved around a call.
+/// The result of look_for_second_hit(), which mostly is not called if there is nothing to find: all
+/// registers are saved around a call.
 template <class Real>
 inline SecondHit<Real> second_hit(const abi::ShapesView& shapes, const vint<Real>& surface,
                                   const Vec3v<Real>& point, const Vec3v<Real>& dir,
@@ -226,13 +229,13 @@ inline SecondHit<Real> second_hit(const abi::ShapesView& shapes, const vint<Real
     return look_for_second_hit<Real>(shapes, surface, point, dir, t_min, outside, may_meet);
 }
 
-/// How much of a point's size counts in its offset where its coordinate across the surface is near
-/// 0: points that are refined in double are off by double's roundoffs then.
+/// The share of a point's magnitude that counts in its offset where its coordinate across the
+/// surface is close to 0: points refined in double are off by double's roundoff there.
 template <class Real>
 inline constexpr Real size_share = sizeof(Real) == sizeof(float) ? Real(0x1p-20) : Real(1);
 
-/// The offset of a ray's origin from its surface, along the outward normal by what rounding can do
-/// to a point there (after Pharr, Jakob and Humphreys, Physically Based Rendering, section 6.8).
+/// The offset of a ray's origin from its surface: along the outward normal, by the rounding error
+/// of a point there (after Pharr, Jakob and Humphreys, Physically Based Rendering, section 6.8).
 template <class Real>
 inline Vec3v<Real> origin_offset(Real start_error, const Vec3v<Real>& point,
                                  const Vec3v<Real>& outward)

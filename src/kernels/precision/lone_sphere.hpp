@@ -2,16 +2,16 @@
 
 #include "kernel_abi/shapes.hpp"
 
-// One ray and one sphere in double, where bounds in single precision can't tell whether they meet
-// or where: far quicker than to trace the ray again among all objects.
+// Tests one ray and one sphere in double, where error bounds in single precision cannot decide.
+// This is much faster than tracing the ray again among all objects.
 namespace packtrace::PACKTRACE_ISA {
 namespace {
 
-/// Share of what enters a discriminant, or a root, by which double may be wrong; a hundred times
-/// more than its operations lose (docs/numerics_derivations.md).
+/// The share of the terms of a discriminant or root by which double may be wrong. It is a hundred
+/// times what the operations lose (docs/numerics_derivations.md).
 inline constexpr double lone_slack = 0x1p-44;
 
-/// Undecided is what is too near to double's own limits.
+/// An answer in double; undecided if it is too close to the limits of double.
 enum class InDouble { yes, no, undecided };
 
 /// The sphere that has this surface number.
@@ -20,22 +20,22 @@ inline const abi::SphereShape& sphere_of(const abi::ShapesView& shapes, std::int
     return shapes.spheres[shapes.index[surface].record];
 }
 
-/// Has what sphere_of() reads fetched. In large scenes that is far away in memory. A guess: where
-/// all surfaces are spheres, a record has its surface's number.
+/// Prefetches what sphere_of() reads, which in large scenes is not in the cache. The address is a
+/// guess: in a scene of spheres only, the number of a record is that of its surface.
 inline void fetch_sphere(const abi::ShapesView& shapes, std::int32_t surface)
 {
     __builtin_prefetch(shapes.index + surface);
     __builtin_prefetch(shapes.spheres + surface);
 }
 
-/// A ray of single precision, in double.
+/// A ray in single precision, widened to double.
 struct WideRay {
     double org[3];
     double dir[3];
     double t_min;
 };
 
-/// Whether a ray crosses a sphere, and the roots, each within `error`.
+/// Whether a ray hits a sphere, and both roots within `error`.
 struct LoneRoots {
     InDouble crosses;
     double near, far;
@@ -67,7 +67,7 @@ inline LoneRoots lone_roots(const abi::SphereShape& sphere, const WideRay& ray)
     return {InDouble::yes, middle - half, middle + half, error};
 }
 
-/// Whether a root lies between the ray's t_min and `t_end`.
+/// Whether the sphere has a hit between the ray's t_min and `t_end`.
 [[gnu::noinline]] inline InDouble is_in_the_way(const abi::SphereShape& sphere, const WideRay& ray,
                                                 double t_end)
 {
@@ -81,17 +81,18 @@ inline LoneRoots lone_roots(const abi::SphereShape& sphere, const WideRay& ray)
     return outside(at.near) && outside(at.far) ? InDouble::no : InDouble::undecided;
 }
 
-/// Whether a ray meets a sphere beyond its t_min, and in which interval of single precision first.
-struct FirstMeeting {
+/// Whether a ray hits a sphere beyond its t_min, and the interval of the first hit in single
+/// precision.
+struct FirstHit {
     InDouble there;
     float low, high;
 };
 
-/// Roots below this are left undecided: single precision has no interval of a few roundoffs there.
+/// Smaller roots are left undecided: intervals of a few roundoffs around them underflow in single
+/// precision.
 inline constexpr double least_root = 1e-30;
 
-[[gnu::noinline]] inline FirstMeeting first_meeting(const abi::SphereShape& sphere,
-                                                    const WideRay& ray)
+[[gnu::noinline]] inline FirstHit first_hit(const abi::SphereShape& sphere, const WideRay& ray)
 {
     const LoneRoots at = lone_roots(sphere, ray);
     if (at.crosses != InDouble::yes)
@@ -101,7 +102,7 @@ inline constexpr double least_root = 1e-30;
     const double t = at.near + at.error < ray.t_min ? at.far : at.near;
     if (!(t - at.error > ray.t_min) || !(t > least_root))
         return {InDouble::undecided, 0, 0};
-    // Rounded to single precision, and out again by more than that.
+    // The interval is widened by more than rounding to single precision narrows it.
     return {InDouble::yes, static_cast<float>((t - at.error) * (1.0 - 0x1p-22)),
             static_cast<float>((t + at.error) * (1.0 + 0x1p-22))};
 }

@@ -2,24 +2,25 @@
 
 #include "kernels/precision/refine.hpp"
 
-// Rays that meet their own body again where another surface is.
+// Rays that hit their own object again close to another surface.
 namespace packtrace::PACKTRACE_ISA {
 namespace {
 
-/// Where a ray meets the body again that it starts on (leave_surface.hpp).
+/// Where a ray hits again the object that it starts on (leave_surface.hpp).
 struct MetAgain {
     double start[3];
-    double t;  ///< infinite for nowhere
+    double t;  ///< infinite if it does not
     std::int32_t surface;
 };
 
-/// The share of a t within which double can't tell two surfaces apart that lie in one place.
+/// Two surfaces within this share of t count as at the same position: double cannot tell which is
+/// first.
 inline constexpr double one_place = 0x1p-44;
 
-/// Whether a ray that meets its own body again meets that before the hit at `t` on `surface`, which
-/// is negative for none. Near each other both are looked for once more from the place where the ray
-/// starts: for the search that is lifted off its surface, and the t was rounded. Where they lie in
-/// one place, as a glass's foot and the table do, the surface of the lower number is hit.
+/// Whether the hit of a ray with its own object comes before the hit at `t` on `surface` (negative:
+/// none). If the two are close, both are searched for again from the ray's start point, because the
+/// search started from the offset origin and t was rounded. If they are at the same position, as
+/// the foot of a glass and the table, the surface with the lower number is hit.
 inline bool meets_own_first(const abi::ShapesView& shapes, const MetAgain& again,
                             const double (&dir)[3], double t, std::int64_t surface)
 {

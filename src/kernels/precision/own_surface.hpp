@@ -2,12 +2,12 @@
 
 #include "kernels/geometry/object_list.hpp"
 
-// The body each ray starts on, which its search passes over: where the ray meets it again is known
-// before (leave_surface.hpp).
+// The object that each ray starts on, which the search skips: where the ray hits it again is
+// already known (leave_surface.hpp).
 namespace packtrace::PACKTRACE_ISA {
 namespace {
 
-/// Rays of which none starts on a surface.
+/// For rays that start on no surface.
 struct NoOwn {
     static constexpr bool all_on(const Body&)
     {
@@ -20,20 +20,20 @@ struct NoOwn {
     }
 };
 
-/// -1 for a ray that starts on none.
+/// The surfaces that a packet of rays starts on; -1 for a ray that starts on none.
 template <class Packet>
 struct OwnSurface {
     Packet surface;
-    std::int32_t common = -1;  ///< the one that all rays which count start on, if there is one
+    std::int32_t common = -1;  ///< the surface that all active rays start on; -1 if they differ
 
-    /// Whether none of the rays is looked for on a body.
+    /// Whether all rays start on `body`, so that none is tested against it.
     bool all_on(const Body& body) const
     {
         return is_on(body, common);
     }
 
-    /// Lanes whose rays start elsewhere than on the body of `pieces` surfaces from `first` on, of
-    /// which all_on() is not true.
+    /// Lanes that do not start on the object of `pieces` surfaces from `first` on. Only called if
+    /// all_on() is false for it.
     template <class Real>
     std::uint32_t lanes_on_others(std::int32_t first, int pieces = 1) const
     {
@@ -56,7 +56,7 @@ inline OwnSurface<vint<Real>> own_with_common(const vint<Real>& surface, lane_in
     return {surface, others == 0 ? static_cast<std::int32_t>(first) : -1};
 }
 
-/// No ray's own surface.
+/// The own surface of rays that start on none.
 template <class Real>
 inline vint<Real> no_surface()
 {

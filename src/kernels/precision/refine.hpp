@@ -3,18 +3,18 @@
 #include "kernel_abi/features.hpp"
 #include "kernels/precision/leave_surface.hpp"
 
-// Hits as shading and callers want them. The search says which surface a ray meets first; where
-// exactly is found once a ray: the first root beyond t_min of that one surface, so that the result
-// hangs on the ray and the surface alone, whatever decided between surfaces. A root of single
-// precision is bettered by one step of Newton's, whose residual is of doubles; where that is not
-// enough, the equation is solved in double.
+// Hits in the precision that shading and callers need. The search only decides which surface a ray
+// hits first. Then the first root beyond t_min of that one surface is computed, so t, point and
+// normal depend only on the ray and the surface, not on how the surface was found. A root in single
+// precision is improved by one Newton step with a residual in double. Where that does not suffice,
+// the equation is solved in double.
 namespace packtrace::PACKTRACE_ISA {
 namespace {
 
-/// What is asked for of a hit.
+/// Which values of a hit are computed: t only, or also point and normal.
 enum class Refine { t, place };
 
-/// A packet of hits with all that shading needs of the place, or with t alone.
+/// A packet of refined hits: t, point and normal, or t only.
 template <class Real, Refine R = Refine::place>
 struct RefinedHits {
     vreal<Real> t;
@@ -34,8 +34,8 @@ inline RefinedHalf refine_half(const abi::ShapesView& shapes, const abi::Surface
     });
 }
 
-/// Lanes whose rays enter, `slope` being negative and `bend` not, and for which Newton's step from
-/// `t` is enough: is_enough() says so, too, but not only there.
+/// Lanes that enter the surface (`slope` is negative, `bend` is not) and for which the Newton step
+/// from `t` certainly suffices. is_enough() is true for these lanes too, and for others.
 inline std::uint32_t is_surely_enough(const vreal<float>& t, const vreal<float>& bend,
                                       const vreal<float>& slope, const vreal<float>& dt,
                                       const vreal<float>& t_min)
@@ -47,8 +47,8 @@ inline std::uint32_t is_surely_enough(const vreal<float>& t, const vreal<float>&
                 (size <= vreal<float>(0x1p-10f) * t) & (t > vreal<float>(1.01f) * t_min));
 }
 
-/// Lanes in which t + dt is within 2^-30 of a root and beyond t_min. Newton's step leaves
-/// bend dt² / slope / 2 of the error dt it began with.
+/// Lanes in which t + dt is within 2^-30 of a root and beyond t_min. A Newton step of dt leaves an
+/// error of bend dt² / slope / 2.
 inline vmask<float> is_close(const RoughRoot& root, const vreal<float>& slope,
                              const vreal<float>& dt, const vreal<float>& t_min)
 {
@@ -60,9 +60,9 @@ inline vmask<float> is_close(const RoughRoot& root, const vreal<float>& slope,
            (size <= vreal<float>(0x1p-9f) * root.t) & (root.t + dt > t_min);
 }
 
-/// Lanes in which that is the root that the search found, where `root` is the one next to it: what
-/// the search rounded is off by four roundoffs of t at most, and the other one is further away by
-/// far. Smaller t are off by more.
+/// Lanes in which that is the root that the search found, where `root` is the one closest to it.
+/// The t of the search is off by at most four roundoffs, and the other root is much further away. A
+/// smaller t may be off by more.
 inline vmask<float> is_found(const RoughRoot& root, const vreal<float>& slope,
                              const vreal<float>& dt, const vreal<float>& t_min)
 {
@@ -71,7 +71,7 @@ inline vmask<float> is_found(const RoughRoot& root, const vreal<float>& slope,
            (root.t > vreal<float>(1e-30f));
 }
 
-/// Those lanes of `same` in which that is the first root beyond t_min; bends are not negative.
+/// The lanes of `same` in which that is the first root beyond t_min; bends are not negative.
 inline std::uint32_t is_enough(const RoughRoot& root, const vreal<float>& slope,
                                const vreal<float>& dt, const vreal<float>& t_min,
                                std::uint32_t same)
@@ -79,8 +79,8 @@ inline std::uint32_t is_enough(const RoughRoot& root, const vreal<float>& slope,
     if ((same & ~is_surely_enough(root.t, root.bend, slope, dt, t_min)) == 0)
         return same;
     const auto close = is_close(root, slope, dt, t_min);
-    // Leaving, the ray must have entered before t_min: the roots' middle is slope / bend before t,
-    // so the other root dt + 2 slope / bend before.
+    // A ray that leaves the surface must have entered it before t_min. The roots are centred slope
+    // / bend before t, so the other root is dt + 2 slope / bend before.
     const vreal<float> since =
         madd(root.bend, (root.t - dt) - t_min, vreal<float>(0x1p-22f) * (root.bend * root.t));
     const auto first =
@@ -88,19 +88,21 @@ inline std::uint32_t is_enough(const RoughRoot& root, const vreal<float>& slope,
     return same & bits(close & first);
 }
 
-/// Refines the lanes of `same`, whose surfaces are `form`; returns those for which it was enough.
+/// Refines the lanes of `same`, whose surfaces are `form`. Returns the lanes for which a Newton
+/// step sufficed.
 template <Refine R, class Form>
 inline std::uint32_t refine_by_newton(RefinedHits<float, R>& hits, const Form& form,
                                       const RayPacket<float>& rays, std::uint32_t same)
 {
     const RoughRoot root = rough_root(form, rays);
-    // Here, as what is widened before a surface's kind is known has to wait in memory.
+    // Widened here, because values widened before the kind of surface is known would be spilled to
+    // memory.
     const WideRays wide(rays);
     const Residual at = residual(form, wide, root.t);
     vreal<float> dt = vreal<float>(-0.5f) * at.value / at.slope;
     std::uint32_t done;
     if constexpr (Form::root_is_known) {
-        // And what the step leaves, for points of rays that are long.
+        // The second-order term of the step, for points on long rays.
         dt = madd(vreal<float>(-0.5f) * dt / at.slope, root.bend * dt, dt);
         done = same & bits(is_found(root, at.slope, dt, rays.t_min) &
                            turns_little(form, at.gradient, rays, dt));
@@ -122,8 +124,8 @@ inline std::uint32_t refine_by_newton(RefinedHits<float, R>& hits, const Form& f
     return done;
 }
 
-/// The same of surfaces of whatever kind, all lanes of `same` on one, which the search found at
-/// `found`.
+/// The same for any kind of surface. All lanes of `same` are on one surface, which the search found
+/// at `found`.
 template <Refine R>
 inline std::uint32_t refine_by_newton(RefinedHits<float, R>& hits, const abi::ShapesView& shapes,
                                       const abi::SurfaceIndex& index, const RayPacket<float>& rays,
@@ -143,7 +145,7 @@ inline std::uint32_t refine_by_newton(RefinedHits<float, R>& hits, const abi::Sh
     });
 }
 
-/// The hits of the lanes of `same`, all on one surface, by solving its equation in double.
+/// Refines lanes that are all on one surface by solving its equation in double.
 template <Refine R>
 [[gnu::noinline]] void solve_in_double(RefinedHits<float, R>& hits, const abi::ShapesView& shapes,
                                        const abi::SurfaceIndex& index, const RayPacket<float>& rays,
@@ -159,9 +161,9 @@ template <Refine R>
     }
 }
 
-/// Points of one surface that were found along rays, moved onto it: the rounding of t leaves them
-/// further off than what lies in the same place is told apart by. No further than `most`, which is
-/// what rounding does, so that no apex throws them away.
+/// Moves points found along rays onto their surface. The rounding of t leaves them further off the
+/// surface than the distance at which surfaces are told apart. They move by at most `most`, the
+/// rounding error, so that an apex does not throw them away.
 inline Vec3v<double> on_surface(const abi::ShapesView& shapes, const abi::SurfaceIndex& index,
                                 const vreal<double>& most, const Vec3v<double>& point,
                                 const Vec3v<double>& normal)
@@ -174,7 +176,7 @@ inline Vec3v<double> on_surface(const abi::ShapesView& shapes, const abi::Surfac
     return select(abs(height) <= most, point - scale<double>(height, normal), point);
 }
 
-/// Hits on the bodies that rays start on, whose t is known.
+/// Refines hits with the objects that rays start on, whose t is known.
 [[gnu::noinline]] inline void refine_second(RefinedHits<float>& hits, const abi::ShapesView& shapes,
                                             const StartPacket<float>& start,
                                             const RayPacket<float>& rays, std::uint32_t again)
@@ -187,7 +189,7 @@ inline Vec3v<double> on_surface(const abi::ShapesView& shapes, const abi::Surfac
     const vreal<double> high_t = widen_high(start.second.t);
     const Vec3v<double> low = half(widen_low(start.point), low_dir, low_t);
     const Vec3v<double> high = half(widen_high(start.point), high_dir, high_t);
-    // What t was rounded by, and as much again.
+    // Twice the rounding error of t.
     const vreal<double> share(0x1p-23);
     const vreal<double> low_most = share * low_t * size_of(low_dir);
     const vreal<double> high_most = share * high_t * size_of(high_dir);
@@ -206,7 +208,7 @@ inline Vec3v<double> on_surface(const abi::ShapesView& shapes, const abi::Surfac
         });
 }
 
-/// Of the lanes of `active`, which are on more than one surface: all spheres together.
+/// Refines lanes that are on more than one surface; all spheres are refined together.
 template <Refine R>
 [[gnu::noinline]] std::uint32_t refine_mixed(RefinedHits<float, R>& hits,
                                              const abi::ShapesView& shapes,
@@ -232,8 +234,8 @@ template <Refine R>
     return done;
 }
 
-/// The places of the hits of `active` on surfaces that their rays don't start on, which the search
-/// found at `found`.
+/// Refines the hits of `active` on surfaces that their rays do not start on, which the search found
+/// at `found`.
 template <Refine R>
 inline void refine_others(RefinedHits<float, R>& hits, const abi::ShapesView& shapes,
                           const RayPacket<float>& rays, const vreal<float>& found,
@@ -252,7 +254,28 @@ inline void refine_others(RefinedHits<float, R>& hits, const abi::ShapesView& sh
     });
 }
 
-/// The places of the hits of `active`. Those on a ray's own body are where its start says.
+/// Points and normals in fast mode and in double: at t as the search found it.
+template <class Real>
+inline void find_places(RefinedHits<Real>& hits, const abi::ShapesView& shapes,
+                        const RayPacket<Real>& rays, const HitPacket<Real>& hit,
+                        const StartPacket<Real>& start, std::uint32_t active)
+{
+    const auto again = int_equal(hit.surface, start.second.surface);
+    hits.point = madd<Real>(hits.t, rays.dir, select(again, start.point, rays.org));
+    for_each_distinct<Real>(hit.surface, active, [&](lane_int<Real> number, vmask<Real> same) {
+        const abi::SurfaceIndex& index = shapes.index[number];
+        const Vec3v<Real> normal = surface_normal<Real>(shapes, index, hits.point, rays.dir);
+        hits.normal = select(same, normal, hits.normal);
+        if constexpr (sizeof(Real) == sizeof(double)) {
+            const vreal<double> way = madd(abs(hits.t), size_of(rays.dir), size_of(rays.org));
+            hits.point = select(
+                same, on_surface(shapes, index, vreal<double>(0x1p-46) * way, hits.point, normal),
+                hits.point);
+        }
+    });
+}
+
+/// Refines the hits of `active`. Hits with a ray's own object are taken from its start.
 template <abi::Features F, Refine R, class Real>
 inline RefinedHits<Real, R> refined(const abi::ShapesView& shapes, const RayPacket<Real>& rays,
                                     const HitPacket<Real>& hit, const StartPacket<Real>& start,
@@ -271,26 +294,9 @@ inline RefinedHits<Real, R> refined(const abi::ShapesView& shapes, const RayPack
         else if (again != 0)
             refine_second(hits, shapes, start, rays, again);
     } else {
-        const auto again = int_equal(hit.surface, start.second.surface);
-        hits.t = select(again, start.second.t, hit.t);
-        if constexpr (R == Refine::place) {
-            hits.point = madd<Real>(hits.t, rays.dir, select(again, start.point, rays.org));
-            for_each_distinct<Real>(
-                hit.surface, active, [&](lane_int<Real> number, vmask<Real> same) {
-                    const abi::SurfaceIndex& index = shapes.index[number];
-                    const Vec3v<Real> normal =
-                        surface_normal<Real>(shapes, index, hits.point, rays.dir);
-                    hits.normal = select(same, normal, hits.normal);
-                    if constexpr (sizeof(Real) == sizeof(double)) {
-                        const vreal<double> way =
-                            madd(abs(hits.t), size_of(rays.dir), size_of(rays.org));
-                        hits.point = select(same,
-                                            on_surface(shapes, index, vreal<double>(0x1p-46) * way,
-                                                       hits.point, normal),
-                                            hits.point);
-                    }
-                });
-        }
+        hits.t = select(int_equal(hit.surface, start.second.surface), start.second.t, hit.t);
+        if constexpr (R == Refine::place)
+            find_places(hits, shapes, rays, hit, start, active);
     }
     return hits;
 }

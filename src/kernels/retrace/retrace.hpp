@@ -5,8 +5,8 @@
 
 #include <limits>
 
-// Rays in single precision that are unsure of their hit, traced again in double, together however
-// few they are. Their places are found afterwards as those of all others (refine.hpp).
+// Traces rays in single precision that are unsure of their hit again in double, together however
+// few they are. Their hits are then refined as all others (refine.hpp).
 namespace packtrace::PACKTRACE_ISA {
 namespace {
 
@@ -15,10 +15,11 @@ inline void count_unsure(abi::RayCounts& counts, std::uint32_t unsure)
     counts.unsure += static_cast<unsigned>(__builtin_popcount(unsure));
 }
 
-/// The features of the kernels that rays are traced again by: few are, so that one set does.
+/// The features of the kernels that trace rays again. Such rays are few, so one feature set
+/// suffices.
 inline constexpr abi::Features wide_features{.quadrics = true};
 
-/// Rays of a bundle of floats as a bundle of doubles.
+/// Rays of a bundle of floats, in a bundle of doubles.
 struct WideBundle {
     RayBundle<double> rays;
     MetAgain again[bundle_rays];
@@ -31,7 +32,8 @@ struct WideBundle {
             cell = 0;
     }
 
-    /// Other surfaces are looked for up to a little beyond where the own body is met again.
+    /// Adds a ray. Other surfaces are searched for up to slightly beyond the hit with the ray's own
+    /// object.
     void add(int ray, const float (&org)[3], const float (&dir)[3], float t_min, float t_max,
              const MetAgain& met, std::int32_t own)
     {
@@ -40,7 +42,7 @@ struct WideBundle {
             rays.dir[axis][count] = dir[axis];
         }
         rays.t_min[count] = t_min;
-        // What single precision has no number for is no hit.
+        // A hit whose t overflows single precision is no hit.
         constexpr float largest = std::numeric_limits<float>::max();
         const double t_end = t_max < largest ? t_max : largest;
         const double little_beyond = met.t * (1.0 + nearly_met<float>);
@@ -56,7 +58,7 @@ struct WideBundle {
     }
 };
 
-/// Adds the lanes of `unsure` of a packet, whose first ray has the number `first`.
+/// Adds the lanes of `unsure` of a packet; the packet's first ray has the number `first`.
 inline void add_lanes(WideBundle& bundle, int first, const RayPacket<float>& rays,
                       const StartPacket<float>& start, const vreal<float>& t_max,
                       std::uint32_t unsure)
@@ -88,12 +90,12 @@ inline void add_lanes(WideBundle& bundle, int first, const RayPacket<float>& ray
     }
 }
 
-/// How far a ray is moved to see whether double decides about it: each of its numbers by four of
-/// double's roundoffs, up or down.
+/// How far rays are perturbed to find out whether double can decide them: each number of a ray by
+/// four roundoffs of double, up or down.
 inline constexpr double double_band = 0x1p-51;
 
-/// Moves rays along one of eight patterns of signs, which have every pair of signs of every two of
-/// the six numbers equally often.
+/// Perturbs rays by one of eight sign patterns. For any two of a ray's six numbers, every pair of
+/// signs occurs in equally many patterns.
 inline void move_rays(RayBundle<double>& rays, int count, int pattern)
 {
     const int bit[3] = {pattern & 1, pattern >> 1 & 1, pattern >> 2 & 1};
@@ -108,7 +110,7 @@ inline void move_rays(RayBundle<double>& rays, int count, int pattern)
     }
 }
 
-/// Counts the rays of a bundle whose `answers(rays, answer)` change when the rays are moved so.
+/// Counts the rays of a bundle whose `answers(rays, answer)` change when the rays are perturbed.
 template <class Answers>
 inline void count_undecided_of(const RayBundle<double>& rays, const WideBundle& bundle,
                                const Answers& answers)

@@ -3,12 +3,12 @@
 #include "kernels/bvh/bvh_closest.hpp"
 #include "kernels/retrace/retrace.hpp"
 
-// Unsure closest hits, found in double.
+// Finds unsure closest hits in double.
 namespace packtrace::PACKTRACE_ISA {
 namespace {
 
-/// The upper end of the interval that a search in single precision would have: refining begins
-/// there, whoever found the hit.
+/// The t that a search in single precision would have stored, the upper end of its interval.
+/// Refining starts from it, whichever search found the hit.
 inline float found_at(double t)
 {
     const float rounded = static_cast<float>(t);
@@ -32,7 +32,8 @@ inline void find_closest(const abi::SceneView<float>& scene, const WideBundle& b
     }
 }
 
-/// The same of a bundle; puts them into `t` and `surface` of the rays it was made from.
+/// Finds the closest hits of a bundle, and writes them to `t` and `surface` of the rays that it was
+/// made from.
 template <bool Probe>
 [[gnu::noinline]] void find_wide(const abi::SceneView<float>& scene, WideBundle& bundle, float* t,
                                  std::int32_t* surface)
@@ -54,7 +55,7 @@ template <bool Probe>
     }
 }
 
-/// The closest hits of the lanes of `unsure`, by double.
+/// Finds the closest hits of the lanes of `unsure` in double.
 template <bool Probe>
 [[gnu::noinline]] void retrace_packet(const abi::SceneView<float>& scene,
                                       const RayPacket<float>& rays, HitPacket<float>& hit,
@@ -75,10 +76,10 @@ template <bool Probe>
     hit.surface = load(surface);
 }
 
-/// Puts right what packets of doubles hit whose rays meet their own body again near it.
-inline void settle_met_again(const abi::ShapesView& shapes, const RayPacket<double>& rays,
-                             HitPacket<double>& hit, const StartPacket<double>& start,
-                             const vreal<double>& t_max, std::uint32_t active)
+/// Corrects the hits of packets in double whose rays hit their own object again close to the hit.
+inline void correct_met_again(const abi::ShapesView& shapes, const RayPacket<double>& rays,
+                              HitPacket<double>& hit, const StartPacket<double>& start,
+                              const vreal<double>& t_max, std::uint32_t active)
 {
     const std::uint32_t again = bits(start.second.t < t_max) & active;
     if (again == 0)
@@ -112,11 +113,11 @@ inline void settle_met_again(const abi::ShapesView& shapes, const RayPacket<doub
     hit.surface = select(keeps, start.second.surface, hit.surface);
 }
 
-/// Puts right what a packet hit where it is unsure; counts those lanes.
+/// Corrects the unsure hits of a packet; returns the unsure lanes.
 template <abi::Features F, class Real>
-inline std::uint32_t settle_packet(const abi::SceneView<Real>& scene, const RayPacket<Real>& rays,
-                                   HitPacket<Real>& hit, const StartPacket<Real>& start,
-                                   const vreal<Real>& t_max, std::uint32_t active)
+inline std::uint32_t correct_packet(const abi::SceneView<Real>& scene, const RayPacket<Real>& rays,
+                                    HitPacket<Real>& hit, const StartPacket<Real>& start,
+                                    const vreal<Real>& t_max, std::uint32_t active)
 {
     if constexpr (F.exact) {
         const std::uint32_t unsure = unsure_lanes(hit) & active;
@@ -124,12 +125,13 @@ inline std::uint32_t settle_packet(const abi::SceneView<Real>& scene, const RayP
             retrace_packet<F.probe>(scene, rays, hit, start, t_max, unsure);
         return unsure;
     } else if constexpr (sizeof(Real) == sizeof(double)) {
-        settle_met_again(scene.shapes, rays, hit, start, t_max, active);
+        correct_met_again(scene.shapes, rays, hit, start, t_max, active);
     }
     return 0;
 }
 
-/// The closest hits of the rays of `unsure` of a bundle, by double; returns their number.
+/// Finds the closest hits of the rays of `unsure` of a bundle in double; returns the number of
+/// these rays.
 template <bool Probe, class StartOf, class EndOf>
 [[gnu::noinline]] int retrace_bundle(const abi::SceneView<float>& scene, RayBundle<float>& bundle,
                                      const std::uint16_t (&unsure)[bundle_cells],
@@ -151,43 +153,57 @@ template <bool Probe, class StartOf, class EndOf>
     return again.count;
 }
 
-/// The same of a bundle. `start_of(first)` tells where the rays of a packet start,
-/// `t_max_of(first)` where they end.
+/// Finds the unsure closest hits of a bundle; returns whether there are any.
+inline bool find_unsure(std::uint16_t (&unsure)[bundle_cells], const RayBundle<float>& bundle)
+{
+    std::uint32_t any_unsure = 0;
+    for (int first = 0; first < bundle_rays; first += lanes<float>) {
+        std::uint16_t& cell = unsure[first / cell_rays];
+        if (first % cell_rays == 0)
+            cell = 0;
+        const std::uint32_t active = active_lanes(bundle, first);
+        if (active == 0)
+            continue;
+        const std::uint32_t lanes_of = unsure_lanes(load_hits(bundle, first)) & active;
+        cell = static_cast<std::uint16_t>(cell | lanes_of << first % cell_rays);
+        any_unsure |= lanes_of;
+    }
+    return any_unsure != 0;
+}
+
+/// correct_met_again() for the packets of a bundle.
+template <class StartOf, class EndOf>
+inline void correct_bundle_met_again(const abi::ShapesView& shapes, RayBundle<double>& bundle,
+                                     const StartOf& start_of, const EndOf& t_max_of)
+{
+    for (int first = 0; first < bundle_rays; first += lanes<double>) {
+        const std::uint32_t active = active_lanes(bundle, first);
+        // Beyond the end of a stream a packet has no ray, and its end must not be read.
+        if (active == 0)
+            continue;
+        const StartPacket<double> start = start_of(first);
+        const vreal<double> t_max = t_max_of(first);
+        if ((bits(start.second.t < t_max) & active) == 0)
+            continue;
+        HitPacket<double> hit = load_hits(bundle, first);
+        correct_met_again(shapes, load_rays(bundle, first), hit, start, t_max, active);
+        store(bundle.t + first, hit.t);
+        store(bundle.surface + first, hit.surface);
+    }
+}
+
+/// Corrects the hits of a bundle; returns the number of unsure ones. `start_of(first)` is the start
+/// of a packet's rays, `t_max_of(first)` their end.
 template <abi::Features F, class Real, class StartOf, class EndOf>
-inline int settle_bundle(const abi::SceneView<Real>& scene, RayBundle<Real>& bundle,
-                         const StartOf& start_of, const EndOf& t_max_of)
+inline int correct_bundle(const abi::SceneView<Real>& scene, RayBundle<Real>& bundle,
+                          const StartOf& start_of, const EndOf& t_max_of)
 {
     if constexpr (F.exact) {
         std::uint16_t unsure[bundle_cells];
-        std::uint32_t any_unsure = 0;
-        for (int first = 0; first < bundle_rays; first += lanes<Real>) {
-            std::uint16_t& cell = unsure[first / cell_rays];
-            if (first % cell_rays == 0)
-                cell = 0;
-            const std::uint32_t active = active_lanes(bundle, first);
-            if (active == 0)
-                continue;
-            const std::uint32_t lanes_of = unsure_lanes(load_hits(bundle, first)) & active;
-            cell = static_cast<std::uint16_t>(cell | lanes_of << first % cell_rays);
-            any_unsure |= lanes_of;
-        }
-        if (any_unsure != 0)
+        if (find_unsure(unsure, bundle))
             return retrace_bundle<F.probe>(scene, bundle, unsure, start_of, t_max_of);
     } else if constexpr (sizeof(Real) == sizeof(double)) {
-        for (int first = 0; first < bundle_rays; first += lanes<Real>) {
-            const std::uint32_t active = active_lanes(bundle, first);
-            // Where a stream ends, no ray of a packet may be left to ask for its end.
-            if (active == 0)
-                continue;
-            const StartPacket<Real> start = start_of(first);
-            const vreal<Real> t_max = t_max_of(first);
-            if ((bits(start.second.t < t_max) & active) == 0)
-                continue;
-            HitPacket<Real> hit = load_hits(bundle, first);
-            settle_met_again(scene.shapes, load_rays(bundle, first), hit, start, t_max, active);
-            store(bundle.t + first, hit.t);
-            store(bundle.surface + first, hit.surface);
-        }
+        correct_bundle_met_again(scene.shapes, bundle, start_of, t_max_of);
     }
     return 0;
 }

@@ -6,8 +6,8 @@
 namespace packtrace::PACKTRACE_ISA {
 namespace {
 
-/// The glass bodies each ray is inside of, by object number, the one it travels in first; -1
-/// fills the rest.
+/// The medium stack of each ray: the glass bodies that it is inside of, by object number, the one
+/// it travels in first. -1 fills the rest.
 template <class Real>
 struct GlassPacket {
     vint<Real> body[abi::glass_depth];
@@ -38,7 +38,7 @@ inline GlassPacket<Real> entered(const GlassPacket<Real>& glass, const vint<Real
     return result;
 }
 
-/// Without `object`, wherever it is.
+/// Removes `object`, wherever it is.
 template <class Real>
 inline GlassPacket<Real> left(const GlassPacket<Real>& glass, const vint<Real>& object)
 {
@@ -67,7 +67,7 @@ template <class Real>
 struct RefractedPacket {
     Vec3v<Real> dir;
     GlassPacket<Real> inside;
-    std::uint32_t total;  ///< lanes of total internal reflection: no refracted ray
+    std::uint32_t total;  ///< lanes of total internal reflection, which have no refracted ray
 };
 
 template <class Real>
@@ -80,9 +80,10 @@ inline vreal<Real> iors_of(const abi::SceneView<Real>& scene, const vint<Real>& 
     return ior.field[0];
 }
 
-/// Snell's law for unit directions and normals turned against them. Entering pushes the body and
-/// leaving the innermost one pops it; leaving one further out, entering one the ray is in, or
-/// leaving one it is not in (open surfaces) goes straight on.
+/// Snell's law, for unit directions and for normals on the side that the ray comes from. Entering a
+/// body pushes it, and leaving the innermost body pops it. A ray goes straight on if it leaves a
+/// body that is not the innermost, enters a body that it is in, or leaves a body that it is not in
+/// (open surfaces).
 template <class Real>
 inline RefractedPacket<Real> refract(const abi::SceneView<Real>& scene,
                                      const SurfacePacket<Real>& surface,
@@ -104,7 +105,7 @@ inline RefractedPacket<Real> refract(const abi::SceneView<Real>& scene,
     const vreal<Real> one(Real(1));
     const vreal<Real> eta = ior_before / ior_behind;
     const vreal<Real> scaled_in = eta * negated(dot(surface.normal, surface.dir));
-    // 1 - eta² (1 - cos²), in which a small cosine keeps its digits.
+    // 1 - eta² (1 - cos²), written so that a small cosine keeps its digits.
     const vreal<Real> cos_out2 = madd(scaled_in, scaled_in, (one - eta) * (one + eta));
     const vreal<Real> bend = scaled_in - sqrt(max(cos_out2, zero));
     const Vec3v<Real> bent = madd<Real>(bend, surface.normal, scale<Real>(eta, surface.dir));

@@ -5,11 +5,11 @@
 #include "kernels/precision/leave_surface.hpp"
 #include "kernels/simd/records.hpp"
 
-// What is known of the hit points before any light is looked at.
+// Surface and material at hit points, which all lights share.
 namespace packtrace::PACKTRACE_ISA {
 namespace {
 
-/// abi::MaterialRecord, one per lane.
+/// One abi::MaterialRecord per lane.
 template <class Real>
 struct MaterialPacket {
     Vec3v<Real> ambient, diffuse, highlight, reflect, local, transmit;
@@ -31,23 +31,22 @@ inline MaterialPacket<Real> fetch_materials(const abi::SceneView<Real>& scene,
 template <class Real>
 struct SurfacePacket {
     Vec3v<Real> point;
-    Vec3v<Real> normal;          ///< unit; turned against the ray where the model says so
-    Vec3v<Real> dir;             ///< of the ray that came here
+    Vec3v<Real> normal;          ///< unit; flipped to face the ray if the model says so
+    Vec3v<Real> dir;             ///< direction of the ray that hit here
     vreal<Real> inverse_length;  ///< 1 / |dir|
     vint<Real> number;
-    lane_int<Real> common;  ///< the number of all active lanes; -1 where they differ
+    lane_int<Real> common;  ///< the number that all active lanes have; -1 if they differ
     vint<Real> material;
     vint<Real> object;
-    lane_int<Real> common_material;  ///< likewise
-    Vec3v<Real> lift;       ///< outwards, to where rounding has no part in which side a point is on
-    std::uint32_t leaving;  ///< lanes that come from the inside
-    std::uint32_t turned;   ///< lanes whose normal is the outward one, turned
+    lane_int<Real> common_material;  ///< the material of all active lanes; -1 if they differ
+    Vec3v<Real> offset;              ///< origin offset of rays that start on the outer side
+    std::uint32_t leaving;           ///< lanes whose ray comes from inside
+    std::uint32_t turned;            ///< lanes whose normal is the flipped outward normal
 };
 
-/// What n·d has to be above for a ray to come from the inside. With SelfHits::exact the side that
-/// a ray comes from is the one its children start on; one that grazes the surface to within what
-/// single precision tells apart comes from outside, as inside no ray does so that does not start
-/// there.
+/// A ray comes from inside if n·d is above this. With SelfHits::exact, child rays start on the side
+/// that the ray comes from. A ray that grazes the surface within the resolution of single precision
+/// comes from outside: no ray from inside does so unless it starts there.
 template <class Real>
 inline vreal<Real> grazing(const abi::SceneView<Real>& scene, const Vec3v<Real>& outward,
                            const Vec3v<Real>& dir)
@@ -57,23 +56,23 @@ inline vreal<Real> grazing(const abi::SceneView<Real>& scene, const Vec3v<Real>&
     return vreal<Real>(Real(4) * scene.rules.start_error) * magnitude_dot(outward, dir);
 }
 
-/// Fills `normal`, `lift`, `leaving` and `turned` from the outward unit normal; the lanes of
-/// `faces_viewer` have it turned against the ray.
+/// Fills `normal`, `offset`, `leaving` and `turned` from the outward unit normal. In the lanes of
+/// `faces_viewer` the normal is flipped to face the ray.
 template <class Real>
 inline void set_normal(SurfacePacket<Real>& surface, const abi::SceneView<Real>& scene,
                        const Vec3v<Real>& outward, std::uint32_t faces_viewer)
 {
     const vreal<Real> zero(Real(0));
     surface.leaving = bits(dot(outward, surface.dir) > grazing(scene, outward, surface.dir));
-    surface.lift = {zero, zero, zero};
+    surface.offset = {zero, zero, zero};
     if (scene.rules.start_error > 0)
-        surface.lift = origin_offset<Real>(scene.rules.start_error, surface.point, outward);
+        surface.offset = origin_offset<Real>(scene.rules.start_error, surface.point, outward);
     surface.turned = faces_viewer & surface.leaving;
     surface.normal = select(from_bits<Real>(surface.turned),
                             scale<Real>(vreal<Real>(Real(-1)), outward), outward);
 }
 
-/// 0 or 1 where the squares have their first or their other colour.
+/// 0 on squares of the first colour, 1 on squares of the other colour.
 template <class Real>
 inline vint<Real> checker_parity(const abi::CheckerRecord<Real>& checker, const Vec3v<Real>& point)
 {
@@ -85,7 +84,7 @@ inline vint<Real> checker_parity(const abi::CheckerRecord<Real>& checker, const 
     return select(odd, vint<Real>(lane_int<Real>(1)), vint<Real>(lane_int<Real>(0)));
 }
 
-/// The material of a surface at each of some points.
+/// The material of a surface at each of the points.
 template <class Real>
 inline vint<Real> material_at(const abi::SceneView<Real>& scene, const abi::MaterialIndex& index,
                               const Vec3v<Real>& point)
@@ -96,7 +95,7 @@ inline vint<Real> material_at(const abi::SceneView<Real>& scene, const abi::Mate
                : first + checker_parity(scene.materials.checkers[index.checker], point);
 }
 
-/// Fills `material` and `object` where the lanes of `active` are on several surfaces.
+/// Fills `material` and `object` if the lanes of `active` are on several surfaces.
 template <class Real>
 inline void set_materials(SurfacePacket<Real>& surface, const abi::SceneView<Real>& scene,
                           std::uint32_t active)
@@ -123,7 +122,7 @@ inline void set_materials(SurfacePacket<Real>& surface, const abi::SceneView<Rea
         });
 }
 
-/// The number that all lanes of `active` have; -1 where they differ.
+/// The number that all lanes of `active` have; -1 if they differ.
 template <class Real>
 inline lane_int<Real> common_number(const vint<Real>& number, std::uint32_t active)
 {
@@ -131,7 +130,7 @@ inline lane_int<Real> common_number(const vint<Real>& number, std::uint32_t acti
     return distinct.is_only() ? distinct.value() : -1;
 }
 
-/// Fills `material`, `object` and what they have in common.
+/// Fills `material`, `object`, `common` and `common_material`.
 template <class Real>
 inline void set_material(SurfacePacket<Real>& surface, const abi::SceneView<Real>& scene,
                          std::uint32_t active)
@@ -149,7 +148,7 @@ inline void set_material(SurfacePacket<Real>& surface, const abi::SceneView<Real
                                                 : common_number<Real>(surface.material, active);
 }
 
-/// The lanes of surfaces whose normal is turned against the ray, after set_material().
+/// The lanes whose surface has a normal that faces the ray; call it after set_material().
 template <class Real>
 inline std::uint32_t facing_viewer(const abi::ShapesView& shapes,
                                    const SurfacePacket<Real>& surface, std::uint32_t active)
@@ -166,7 +165,7 @@ inline std::uint32_t facing_viewer(const abi::ShapesView& shapes,
     return lanes_of;
 }
 
-/// The surfaces at hits with their outward unit normals.
+/// The surfaces at hits, from their outward unit normals.
 template <class Real>
 inline SurfacePacket<Real> surface_at(const abi::SceneView<Real>& scene, const Vec3v<Real>& point,
                                       const Vec3v<Real>& normal, const Vec3v<Real>& dir,
@@ -182,7 +181,7 @@ inline SurfacePacket<Real> surface_at(const abi::SceneView<Real>& scene, const V
     return surface;
 }
 
-/// The materials of packet after packet: mostly all lanes have the one that the packet before had.
+/// Keeps the materials of the last packet: mostly all lanes of the next packet have the same one.
 template <class Real>
 class LastMaterials {
 public:

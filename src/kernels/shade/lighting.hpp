@@ -6,11 +6,11 @@
 #include "kernels/shade/power.hpp"
 #include "kernels/stats/observe.hpp"
 
-// Local light of a packet of hit points: note 001's diffuse and specular sums, with shadows.
+// Local light at a packet of hits: the diffuse and specular sums of note 001, with shadows.
 namespace packtrace::PACKTRACE_ISA {
 namespace {
 
-/// The direction towards one light and what it would give if nothing were in between.
+/// The direction towards one light, and its terms without occluders.
 template <class Real>
 struct LightPacket {
     Vec3v<Real> to_light;        ///< not unit
@@ -18,10 +18,10 @@ struct LightPacket {
     vreal<Real> highlight;       ///< R·V, unit vectors, where positive and above the floor
     vreal<Real> inverse_length;  ///< of to_light
     std::uint32_t has_highlight;
-    std::uint32_t wanted;  ///< lanes the light can add anything to
+    std::uint32_t wanted;  ///< lanes to which the light can add anything
 };
 
-/// R·V of the mirrored light direction R = 2 (N·L) N - L comes down to 2 (N·L)(N·V) - L·V.
+/// R·V of the reflected light direction R = 2 (N·L) N - L equals 2 (N·L)(N·V) - L·V.
 template <class Real>
 inline LightPacket<Real> light_at(const abi::SceneView<Real>& scene,
                                   const abi::LightRecord<Real>& light,
@@ -50,7 +50,7 @@ inline LightPacket<Real> light_at(const abi::SceneView<Real>& scene,
     return result;
 }
 
-/// diffuse kd + highlight^n ks, times the light's intensity, in the lanes of `lit`.
+/// diffuse kd + highlight^n ks, times the light's intensity, in the lanes of `lit`; 0 elsewhere.
 template <class Real>
 inline Vec3v<Real> lit_color(const abi::LightRecord<Real>& light, const LightPacket<Real>& packet,
                              const MaterialPacket<Real>& material, std::uint32_t lit,

@@ -3,13 +3,14 @@
 #include "kernels/shade/lighting.hpp"
 #include "kernels/shade/shade_context.hpp"
 
-// Whether the body that a point is on keeps it from a light: not looked for among the others, but
-// told by where the way meets that body again.
+// Whether a point is in the shadow of the object that it lies on. No occluder is searched for: the
+// t at which the shadow segment hits that object again decides.
 namespace packtrace::PACKTRACE_ISA {
 namespace {
 
-/// The lanes from which the way to a light leaves a body on the outer side. The N·L of shading
-/// decides, and no other product: one may round to the other side where a light grazes a surface.
+/// The lanes whose segment to the light leaves the surface on the outer side. The N·L of shading
+/// decides, and no other product, which might round to the other side where the light grazes the
+/// surface.
 template <class Real>
 inline std::uint32_t outside_towards(const SurfacePacket<Real>& surface,
                                      const Vec3v<Real>& to_light)
@@ -20,21 +21,22 @@ inline std::uint32_t outside_towards(const SurfacePacket<Real>& surface,
              (bits(normal_light > zero) & surface.turned));
 }
 
-/// Where the way from a point to a light ends.
+/// The t at which the segment from a point to a light ends.
 template <class Real>
 inline Real way_end(const abi::LightRecord<Real>& light)
 {
     return light.kind == abi::LightKind::directional ? static_cast<Real>(__builtin_inf()) : Real(1);
 }
 
-/// How far a place is over a piece of a body.
+/// The height of a point over one surface of an object.
 template <class Shape>
 inline double height_of_place(const Shape& shape, unsigned piece, const Vec3v<double>& place)
 {
     return first_lane<double>(height_over(shape, piece, place));
 }
 
-/// Whether a place is outside the body that a piece is of: of one that caps close over any piece.
+/// Whether a point is outside the object that a surface belongs to: for a capped quadric, over any
+/// of its surfaces.
 template <class Shape>
 inline bool is_outside(const Shape& shape, unsigned piece, const Vec3v<double>& place)
 {
@@ -45,11 +47,11 @@ inline bool is_outside(const Shape& shape, unsigned piece, const Vec3v<double>& 
     return height_of_place(shape, piece, place) > 0;
 }
 
-/// The share of a way within which rounding may have the body end before a light, or behind it: of
-/// ways along a surface, both terms of the t cancel.
+/// If the object's hit is within this share of the segment of the light, rounding may decide which
+/// comes first: for segments along a surface, both terms of t cancel.
 inline constexpr double ends_at_light = 0x1p-12;
 
-/// Lanes of a packet for which past_gap() holds of the body's side.
+/// Lanes of a packet for which past_gap() is true of the object's side.
 template <class Real, class Shape>
 inline std::uint32_t past_gap_of(const Shape& shape, unsigned piece, const Vec3v<double>& place,
                                  const Vec3v<Real>& way)
@@ -67,10 +69,10 @@ inline std::uint32_t past_gap_of(const Shape& shape, unsigned piece, const Vec3v
     }
 }
 
-/// Lanes of `near`, whose ways to a light meet their own body again there, or nearly, for which
-/// that is before it: outside where they come from inside, or inside. What lies on the body is on
-/// neither side. Where the way has two more crossings, through a gap, the light may be inside
-/// again.
+/// For segments that hit their own object again close to the light (`near`): the lanes whose hit is
+/// before the light. A segment from inside is occluded if the light is outside, and one from
+/// outside if the light is inside. A light on the surface is neither. If the segment has two more
+/// hits, through a gap, the light may be inside again.
 template <class Real>
 [[gnu::noinline]] std::uint32_t behind_own_body(const abi::ShapesView& shapes,
                                                 const vint<Real>& surface, const Vec3v<Real>& way,
@@ -93,7 +95,7 @@ template <class Real>
     return behind;
 }
 
-/// Lanes of `wanted` that their own body keeps from a light, by SelfHits::exact.
+/// Lanes of `wanted` in the shadow of their own object, with SelfHits::exact.
 template <class Real>
 inline std::uint32_t own_shadow(const abi::SceneView<Real>& scene,
                                 const abi::LightRecord<Real>& light,

@@ -7,9 +7,9 @@
 #include <cstddef>
 #include <utility>
 
-// x^n of a highlight, for cosines x and exponents up to 10 000. xsimd's pow differs between
-// widths, so this one is made of fixed operations: the logarithm as an unevaluated sum of two
-// reals, because its rounding error is multiplied by n.
+// x^n of a highlight, for cosines x and exponents up to 10 000. xsimd's pow differs between packet
+// widths, so this function uses a fixed sequence of operations. The logarithm is an unevaluated sum
+// of two reals, because its rounding error is multiplied by n.
 namespace packtrace::PACKTRACE_ISA {
 namespace {
 
@@ -19,7 +19,7 @@ struct TwoPart {
     vreal<Real> low;
 };
 
-/// How many terms give the two series to half a unit in Real's last place.
+/// The number of terms with which the two series are accurate to half a unit in Real's last place.
 template <class Real>
 struct PowerSeries;
 template <>
@@ -60,14 +60,14 @@ consteval auto exp2_coefficients()
     return c;
 }
 
-// As static arrays, the coefficients can't end as long doubles that are divided at run time.
+// As static arrays the coefficients are not stored as long double and converted at run time.
 template <class Real>
 inline constexpr auto log2_series = log2_coefficients<Real>();
 template <class Real>
 inline constexpr auto exp2_series = exp2_coefficients<Real>();
 
-/// c[0] + x (c[1] + x (c[2] + …)) by Horner's rule, one statement a term: GCC keeps a loop over
-/// the array as one.
+/// c[0] + x (c[1] + x (c[2] + …)) by Horner's rule. A fold expression writes one statement per
+/// term; GCC would not unroll a loop over the array.
 template <class Real, std::size_t n, std::size_t... k>
 inline batch<Real> horner(const std::array<Real, n>& c, batch<Real> x, std::index_sequence<k...>)
 {
@@ -82,7 +82,7 @@ inline batch<Real> horner(const std::array<Real, n>& c, batch<Real> x)
     return horner<Real>(c, x, std::make_index_sequence<n - 1>{});
 }
 
-/// (2/ln 2) s³ (1/3 + s²/5 + s⁴/7 + …): what atanh's series adds to its first term, |s| < 0.172.
+/// (2/ln 2) s³ (1/3 + s²/5 + s⁴/7 + …): the terms of atanh's series after the first, |s| < 0.172.
 template <class Real>
 inline batch<Real> log2_tail(batch<Real> s)
 {
@@ -104,7 +104,7 @@ inline TwoPart<Real> log2_two_part(batch<Real> x)
     m = select(large, m * vreal<Real>(Real(0.5)), m);
     exponent = select(large, exponent + vreal<Real>(Real(1)), exponent);
 
-    // s in two parts: the rounding of m + 1 and of the quotient are both put back.
+    // s in two parts: corrected for the rounding of m + 1 and of the quotient.
     const vreal<Real> f = m - vreal<Real>(Real(1));
     const vreal<Real> g = m + vreal<Real>(Real(1));
     const vreal<Real> g_low = m - (g - vreal<Real>(Real(1)));
@@ -131,8 +131,8 @@ inline batch<Real> exp2_fraction(batch<Real> f)
     return horner<Real>(exp2_series<Real>, f);
 }
 
-/// x^n for x in [0, 1 + 1e-6], 0 < n <= 10 000; exactly 0 where the result would be below the
-/// smallest normal number, and for a denormal x.
+/// x^n for x in [0, 1 + 1e-6], 0 < n <= 10 000. Exactly 0 if the result would be below the smallest
+/// normal number, and for a denormal x.
 template <class Real>
 inline batch<Real> highlight_power(batch<Real> x, batch<Real> n)
 {
@@ -141,11 +141,11 @@ inline batch<Real> highlight_power(batch<Real> x, batch<Real> n)
     const vreal<Real> y_high = n * log.high;
     const vreal<Real> y_low = madd(n, log.low, exact_msub(n, log.high, y_high));
 
-    // The low part may be a hundredth of the high one: it counts in the whole exponent too.
+    // The low part may be a hundredth of the high part, so it counts in the integer exponent too.
     const vreal<Real> y = y_high + y_low;
     const vreal<Real> rest = y_low - (y - y_high);
 
-    // Lanes that end as 0 are kept in the range where the integer conversion holds.
+    // Lanes whose result is 0 are clamped to the range of the conversion to integers.
     const vreal<Real> clamped = max(y, smallest);
     const vreal<Real> shift(FloatFormat<Real>::integer_shift);
     const vreal<Real> whole = (clamped + shift) - shift;

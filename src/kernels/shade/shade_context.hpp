@@ -5,11 +5,11 @@
 #include "kernels/lists/object_sets.hpp"
 #include "kernels/shade/hit_points.hpp"
 
-// What shading a tile needs besides the hits themselves.
+// What shading a tile needs besides the hits.
 namespace packtrace::PACKTRACE_ISA {
 namespace {
 
-/// The shares of a light that come through, where anything lets light through.
+/// The shares of a light that reach the hits; only if anything transmits light.
 template <bool Glass, class Real>
 struct LightShares {
 };
@@ -18,17 +18,18 @@ struct LightShares<true, Real> {
     Real share[3][bundle_rays];
 };
 
-/// What a chunk of hits sees of one light.
+/// The shadows of one light at a chunk of hits.
 template <abi::Features F, class Real>
 struct alignas(64) LightShadows : LightShares<F.glass, Real> {
-    std::uint16_t lit[bundle_cells];  ///< a bit a hit: not wholly in shadow
+    std::uint16_t lit[bundle_cells];  ///< one bit per hit: not completely in shadow
 
     std::uint32_t lit_lanes(int first) const
     {
         return lit[first / cell_rays] >> first % cell_rays & all_lanes<Real>;
     }
 
-    /// Takes an occluder's share off some lanes, and returns those left dark.
+    /// Multiplies the share of some lanes by what an occluder transmits; returns the lanes that are
+    /// now dark.
     std::uint32_t dim(const abi::SceneView<Real>& scene, std::int32_t surface, int first,
                       std::uint32_t blocked)
     {
@@ -44,7 +45,7 @@ struct alignas(64) LightShadows : LightShares<F.glass, Real> {
         return blocked & ~bright;
     }
 
-    /// Gives some lanes the whole light back.
+    /// Resets the share of some lanes to the whole light.
     void brighten(int first, std::uint32_t lanes_of)
     {
         const vreal<Real> one(Real(1));
@@ -59,29 +60,29 @@ struct alignas(64) LightShadows : LightShares<F.glass, Real> {
     }
 };
 
-/// Where the shadow rays of a scene find what is in their way.
+/// The scene that shadow rays are traced in.
 template <class Real>
 inline const abi::SceneView<Real>& casters_of(const abi::SceneView<Real>& scene)
 {
     return scene.casters != nullptr ? *scene.casters : scene;
 }
 
-/// What shading a tile needs besides the hits themselves.
+/// The inputs and outputs of shading a chunk of hits.
 template <abi::Features F, class Real>
 struct ShadeContext {
     const abi::SceneView<Real>* scene;
-    const LightObjects<F, Real>* occluders;  ///< for each light
-    /// The surfaces at the hits, by packet; null where shading alone looks at them.
+    const LightObjects<F, Real>* occluders;  ///< per light
+    /// The surfaces at the hits, by packet; null if shading computes them itself.
     const SurfacePacket<Real>* surfaces;
-    /// For each light, what the hits see of it, see has_shadows(); null without a hierarchy.
+    /// Per light, the shadows at the hits, see has_shadows(); null without a BVH.
     const LightShadows<F, Real>* shadows;
-    int depth;  ///< reflections and refractions before these hits
+    int depth;  ///< number of reflections and refractions before these hits
     abi::RayCounts* counts;
-    /// By pixel of the tile, the most light it may lack for rays that are not traced, in
-    /// abi::lack_unit; null where all are.
+    /// By pixel, an upper bound of the light that it lacks for rays that were not traced, in
+    /// abi::lack_unit; null if all are traced.
     double* lacks;
 
-    /// Whether it was found out before what the hits see of a light.
+    /// Whether the shadows of a light are already known.
     bool has_shadows(int light) const
     {
         return shadows != nullptr && !occluders[light].are_all;

@@ -2,9 +2,9 @@
 
 #include "kernels/simd/simd.hpp"
 
-// a b - c where c is so near a b that the difference is a real number: one fused operation, or
-// without those Dekker's product (A floating-point technique for extending the available
-// precision, 1971).
+// a b - c, exact if c is so close to a b that the difference is representable. It is one fused
+// operation or, without FMA, Dekker's product (T. J. Dekker, "A Floating-Point Technique for
+// Extending the Available Precision", 1971).
 namespace packtrace::PACKTRACE_ISA {
 namespace {
 
@@ -18,7 +18,7 @@ inline batch<Real> exact_msub(batch<Real> a, batch<Real> b, batch<Real> c)
 
 #else
 
-/// x as the sum of two reals of half the digits.
+/// x as the sum of two reals with half the digits each.
 template <class Real>
 struct Halves {
     vreal<Real> high;

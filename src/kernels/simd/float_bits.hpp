@@ -4,8 +4,9 @@
 
 #include <limits>
 
-// The parts of a floating-point number. Integers go to and from reals by adding 1.5 * 2^52
-// (2^23 for floats), whose last bits then are the integer: one operation on every ISA.
+// The parts of floating-point numbers. Integers are converted to and from reals by adding 1.5 *
+// 2^52 (1.5 * 2^23 for floats): the last bits of the sum are the integer. This is one operation on
+// every instruction set.
 namespace packtrace::PACKTRACE_ISA {
 namespace {
 
@@ -33,7 +34,7 @@ inline vint<Real> to_int(batch<Real> x)
     return as_int(x + shift) - as_int(shift);
 }
 
-/// |i| < 2^21.
+/// The real that is equal to i, |i| < 2^21.
 template <class Real>
 inline vreal<Real> to_real(vint<Real> i)
 {
@@ -41,7 +42,7 @@ inline vreal<Real> to_real(vint<Real> i)
     return as_real(i + as_int(shift)) - shift;
 }
 
-/// floor(log2 x) of a normal positive number.
+/// floor(log2 x) for a normal positive x.
 template <class Real>
 inline vint<Real> exponent_of(batch<Real> x)
 {

@@ -1,9 +1,9 @@
 #pragma once
 
-// The instruction set a kernel object is compiled for. The build defines PACKTRACE_ISA (the
-// name, and the namespace everything lives in) and PACKTRACE_LANES (float lanes of a packet),
-// and passes the matching -m flags. The architecture is always named: xsimd's default one
-// differs between its versions under the same flags.
+// The instruction set that a kernel object is compiled for. The build defines PACKTRACE_ISA (its
+// name, and the namespace of all code) and PACKTRACE_LANES (the number of float lanes in a packet),
+// and passes the matching -m flags. xsimd's architecture is always named, because its default
+// differs between versions under the same flags.
 
 #include "kernel_abi/lists.hpp"
 
@@ -39,7 +39,7 @@ using Arch = xsimd::fma3<xsimd::avx2>;
 #else
 using Arch = xsimd::sse4_2;
 #endif
-// Template functions cannot deduce a Real through vreal<Real>, so they take the batch itself.
+// Function templates cannot deduce Real from vreal<Real>, so they take batch<Real>.
 template <class T>
 using batch = xsimd::batch<T, Arch>;
 template <class T>
@@ -47,8 +47,8 @@ using batch_bool = xsimd::batch_bool<T, Arch>;
 namespace operations = xsimd;
 #endif
 
-// The lane types. A mask is not a vector; a packet of doubles has half the lanes of one of
-// floats, but for one lane, and its integers are as wide as its reals.
+// The lane types. A mask is not a vector. A packet of doubles has half as many lanes as one of
+// floats, except with one lane. Integers are as wide as the reals of the packet.
 
 template <class Real>
 using lane_int = abi::lane_int<Real>;
@@ -69,7 +69,7 @@ inline constexpr std::uint32_t all_lanes = (1u << lanes<Real>)-1u;
 
 static_assert(lanes<float> == PACKTRACE_LANES && lanes<double> == (PACKTRACE_LANES + 1) / 2);
 
-/// The bits of reals, and reals of bits.
+/// Reinterprets reals as integers of the same bits, and the reverse.
 template <class Real>
 inline vint<Real> as_int(batch<Real> x)
 {
@@ -84,7 +84,7 @@ inline vreal<double> as_real(vint<double> i)
     return __builtin_bit_cast(vreal<double>, i);
 }
 
-/// Lanes in one mask or the other.
+/// Lanes in either mask. On AVX-512 this replaces `|` (native/avx512.hpp).
 template <class Real>
 inline batch_bool<Real> either(batch_bool<Real> a, batch_bool<Real> b)
 {

@@ -4,12 +4,12 @@
 
 #include <utility>
 
-// Per-lane look-up of records by number. Neighbouring rays mostly ask for the same record, so
-// each distinct one is loaded once and blended into its lanes: no gathers.
+// Looks up a record per lane, by number. Neighbouring rays mostly need the same record, so each
+// distinct record is loaded once and blended into its lanes. No gather instructions are used.
 namespace packtrace::PACKTRACE_ISA {
 namespace {
 
-/// The distinct numbers among some lanes, of which there is at least one: a cursor.
+/// A cursor over the distinct numbers in the active lanes, of which there is at least one.
 template <class Real>
 class DistinctNumbers {
 public:
@@ -22,17 +22,17 @@ public:
     {
         return value_;
     }
-    /// The lanes of value(), inactive ones among them.
+    /// The lanes that hold value(), inactive lanes included.
     [[nodiscard]] vmask<Real> lanes_of() const
     {
         return int_equal(number_, vint<Real>(value_));
     }
-    /// Whether there is but one.
+    /// Whether only one number is left.
     [[nodiscard]] bool is_only() const
     {
         return (left_ & ~bits(lanes_of())) == 0;
     }
-    /// Goes on to the next; false when there is none.
+    /// Advances to the next number; false if there is none.
     bool next()
     {
         left_ &= ~bits(lanes_of());
@@ -49,7 +49,8 @@ private:
         store(by_lane, number);
         return by_lane[lane];
     }
-    /// Mostly lane 0, which the compiler takes without a way through memory.
+    /// The first active lane is mostly lane 0, which the compiler extracts without going through
+    /// memory.
     static lane_int<Real> first_of(const vint<Real>& number, std::uint32_t active)
     {
         return (active & 1u) != 0 ? lane_of(number, 0) : lane_of(number, __builtin_ctz(active));
@@ -82,8 +83,8 @@ struct RecordPacket {
     }
 };
 
-/// The same record in all lanes. Field by field without a loop, so that those that nobody asks
-/// for are not loaded.
+/// The same record in all lanes. The fields are loaded one by one, not in a loop, so that the
+/// compiler omits the fields that are not used.
 template <class Real, std::size_t... Field>
 inline RecordPacket<sizeof...(Field), Real> broadcast_record(const Real* record,
                                                              std::index_sequence<Field...>)
@@ -99,8 +100,8 @@ inline void blend_record(RecordPacket<Fields, Real>& records, const vmask<Real>&
      ...);
 }
 
-/// Per lane the record that `find(number)` returns, a struct of `Fields` reals; inactive lanes
-/// hold some record. Mostly there is but one.
+/// The record that `find(number)` returns, per lane: a struct of `Fields` reals. Inactive lanes
+/// hold any record. Mostly there is only one number.
 template <int Fields, class Real, class Find>
 inline RecordPacket<Fields, Real> find_records(const vint<Real>& number, std::uint32_t active,
                                                const Find& find)

@@ -4,7 +4,7 @@
 #include "kernels/simd/float_bits.hpp"
 #include "kernels/simd/vec3.hpp"
 
-// Runs single operations for the tests that hold each against plain scalar code.
+// Runs single operations. Tests compare them with plain scalar code.
 namespace packtrace::PACKTRACE_ISA {
 namespace {
 
@@ -40,7 +40,7 @@ struct SelfTestOperands {
     }
 };
 
-/// What compress_store leaves in memory.
+/// The packet that compress_store writes to memory.
 template <class Packet>
 inline Packet compressed(const Packet& x, std::uint32_t pattern)
 {
@@ -49,7 +49,7 @@ inline Packet compressed(const Packet& x, std::uint32_t pattern)
     return load(by_lane);
 }
 
-/// a b - c by way of the two halves in double, where there are any.
+/// a b - c computed in double for floats, by widening and narrowing.
 inline vreal<float> by_halves(const SelfTestOperands<float>& in)
 {
     return narrow(widen_low(in.a) * widen_low(in.b) - widen_low(in.c),
@@ -60,13 +60,14 @@ inline vreal<double> by_halves(const SelfTestOperands<double>& in)
     return in.a * in.b - in.c;
 }
 
-/// Operations whose result is a packet of reals or a mask.
+// SimdOp lists arithmetic first, up to `max`, then comparisons and operations on masks, up to
+// `mask_not`.
+
 template <class Real>
-inline vreal<Real> real_result(const abi::SelfTestJob<Real>& job, const SelfTestOperands<Real>& in)
+inline vreal<Real> arithmetic_result(abi::SimdOp op, const SelfTestOperands<Real>& in)
 {
     using abi::SimdOp;
-    const auto odd = in.b < in.c;
-    switch (job.op) {
+    switch (op) {
         case SimdOp::add:
             return in.a + in.b;
         case SimdOp::sub:
@@ -93,28 +94,46 @@ inline vreal<Real> real_result(const abi::SelfTestJob<Real>& job, const SelfTest
             return with_sign_of(abs(in.a), in.b);
         case SimdOp::min:
             return min(in.a, in.b);
-        case SimdOp::max:
+        default:
             return max(in.a, in.b);
+    }
+}
+
+template <class Real>
+inline vmask<Real> mask_result(abi::SimdOp op, const SelfTestOperands<Real>& in)
+{
+    using abi::SimdOp;
+    const vmask<Real> other = in.b < in.c;
+    switch (op) {
         case SimdOp::less:
-            return in.as_numbers(in.a < in.b);
+            return in.a < in.b;
         case SimdOp::less_equal:
-            return in.as_numbers(in.a <= in.b);
+            return in.a <= in.b;
         case SimdOp::greater:
-            return in.as_numbers(in.a > in.b);
+            return in.a > in.b;
         case SimdOp::greater_equal:
-            return in.as_numbers(in.a >= in.b);
+            return in.a >= in.b;
         case SimdOp::equal:
-            return in.as_numbers(in.a == in.b);
+            return in.a == in.b;
         case SimdOp::mask_and:
-            return in.as_numbers(in.m & odd);
+            return in.m & other;
         case SimdOp::mask_or:
-            return in.as_numbers(in.m | odd);
+            return in.m | other;
         case SimdOp::either:
-            return in.as_numbers(either(in.m, odd));
+            return either(in.m, other);
         case SimdOp::mask_and_not:
-            return in.as_numbers(in.m & !odd);
-        case SimdOp::mask_not:
-            return in.as_numbers(!in.m);
+            return in.m & !other;
+        default:
+            return !in.m;
+    }
+}
+
+/// The other operations whose result is a packet of reals or a mask.
+template <class Real>
+inline vreal<Real> other_result(const abi::SelfTestJob<Real>& job, const SelfTestOperands<Real>& in)
+{
+    using abi::SimdOp;
+    switch (job.op) {
         case SimdOp::from_bits:
             return in.as_numbers(from_bits<Real>(job.mask));
         case SimdOp::first_lanes:
@@ -142,6 +161,16 @@ inline vreal<Real> real_result(const abi::SelfTestJob<Real>& job, const SelfTest
         default:
             return in.zero;
     }
+}
+
+template <class Real>
+inline vreal<Real> real_result(const abi::SelfTestJob<Real>& job, const SelfTestOperands<Real>& in)
+{
+    if (job.op <= abi::SimdOp::max)
+        return arithmetic_result(job.op, in);
+    if (job.op <= abi::SimdOp::mask_not)
+        return in.as_numbers(mask_result(job.op, in));
+    return other_result(job, in);
 }
 
 /// Operations whose result is a packet of integers.

@@ -1,7 +1,7 @@
 #pragma once
 
-// The operations the kernels are written in. xsimd gives arithmetic and comparison; the rest,
-// and whatever differs between its versions, is in native/.
+// The operations that the kernels are written in. xsimd supplies arithmetic and comparisons. What
+// xsimd lacks, or what differs between its versions, is in native/.
 
 #include "kernels/simd/lanes.hpp"
 #if PACKTRACE_LANES == 1
@@ -31,7 +31,7 @@ inline void store(Real* to, batch<Real> x)
     x.store_unaligned(to);
 }
 
-/// Writes the lanes of `x` chosen by `pattern` to `to` in order; may write a whole packet.
+/// Writes the lanes of `x` in `pattern` to `to`, in order. It may write a whole packet.
 template <class Real>
 inline void compress_store(Real* to, std::uint32_t pattern, batch<Real> x)
 {
@@ -61,10 +61,10 @@ inline vint<double> select(vmask<double> active, vint<double> a, vint<double> b)
     return as_int(operations::select(active, as_real(a), as_real(b)));
 }
 
-// min and max are one instruction where that returns its second operand for a NaN or equal ones, as
-// SSE's and AVX's do.
+// min and max compile to one instruction where that instruction returns its second operand for NaN
+// or equal operands, as on SSE and AVX.
 
-/// b where b < a, else a: with a NaN in either the result is a.
+/// b where b < a, else a. With a NaN in either operand the result is a.
 template <class Real>
 inline batch<Real> min(batch<Real> a, batch<Real> b)
 {
@@ -75,7 +75,7 @@ inline batch<Real> min(batch<Real> a, batch<Real> b)
 #endif
 }
 
-/// b where b > a, else a: with a NaN in either the result is a.
+/// b where b > a, else a. With a NaN in either operand the result is a.
 template <class Real>
 inline batch<Real> max(batch<Real> a, batch<Real> b)
 {
@@ -98,14 +98,14 @@ inline batch<Real> abs(batch<Real> x)
     return operations::abs(x);
 }
 
-/// -x by its sign bit: xsimd's own is 0 - x with AVX-512, which gives +0 for +0.
+/// -x, by flipping the sign bit. xsimd's negation on AVX-512 is 0 - x, which gives +0 for +0.
 template <class Real>
 inline batch<Real> negated(batch<Real> x)
 {
     return as_real(as_int(x) ^ as_int(vreal<Real>(Real(-0.0))));
 }
 
-/// `magnitude`, whose sign bit is clear, with the sign bit of `sign`.
+/// `magnitude`, whose sign bit must be clear, with the sign bit of `sign`.
 template <class Real>
 inline batch<Real> with_sign_of(batch<Real> magnitude, batch<Real> sign)
 {
@@ -145,14 +145,14 @@ inline Real first_lane(batch<Real> x)
     return by_lane[0];
 }
 
-/// The pattern of the first `count` lanes; all of them when there are more.
+/// The bit pattern of the first `count` lanes; of all lanes if `count` is larger.
 template <class Real>
 inline std::uint32_t first_lanes(int count)
 {
     return count >= lanes<Real> ? all_lanes<Real> : (1u << count) - 1u;
 }
 
-/// `first` and those after it.
+/// The numbers first, first + 1, … in lane order.
 template <class Real>
 inline vint<Real> lane_numbers(int first)
 {

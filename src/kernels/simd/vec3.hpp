@@ -5,8 +5,9 @@
 namespace packtrace::PACKTRACE_ISA {
 namespace {
 
-/// A vector per lane. Copies go by member: GCC 12 copies a trivial aggregate of this size in
-/// 16-byte pieces through the stack, and reloading those whole stalls.
+/// One vector per lane. Copies are written member by member, because GCC 12 copies a trivial
+/// aggregate of this size through the stack in 16-byte pieces, and loading whole registers from
+/// there stalls.
 template <class Real>
 struct Vec3v {
     vreal<Real> x, y, z;
@@ -78,7 +79,7 @@ inline vreal<Real> dot(const Vec3v<Real>& a, const Vec3v<Real>& b)
     return madd(a.x, b.x, madd(a.y, b.y, a.z * b.z));
 }
 
-/// The sum of |a_i| |b_i|: what rounding of a·b is to be measured by.
+/// The sum of |a_i| |b_i|: the scale of the rounding error of a·b.
 template <class Real>
 inline vreal<Real> magnitude_dot(const Vec3v<Real>& a, const Vec3v<Real>& b)
 {
@@ -104,8 +105,7 @@ inline Vec3v<Real> select(batch_bool<Real> active, const Vec3v<Real>& a, const V
     return {select(active, a.x, b.x), select(active, a.y, b.y), select(active, a.z, b.z)};
 }
 
-// A packet of floats as two of doubles: no bit is lost on the way, and what comes back is
-// rounded once.
+// A packet of floats is widened to two packets of doubles, which is exact. Narrowing rounds once.
 
 inline Vec3v<double> widen_low(const Vec3v<float>& v)
 {
@@ -121,7 +121,7 @@ inline Vec3v<float> narrow(const Vec3v<double>& low, const Vec3v<double>& high)
     return {narrow(low.x, high.x), narrow(low.y, high.y), narrow(low.z, high.z)};
 }
 
-/// The bit pattern of a packet of floats from those of its halves.
+/// The bit pattern of a packet of floats, from the patterns of its low and high half.
 inline std::uint32_t narrow_bits(std::uint32_t low, std::uint32_t high)
 {
     return (low | (high << lanes<double>)) & all_lanes<float>;

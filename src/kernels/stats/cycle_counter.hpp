@@ -8,7 +8,8 @@
 
 #include "kernels/simd/lanes.hpp"
 
-// The processor's counter of time. It runs at one rate, whatever the clock of the cores.
+// The processor's time counter. It runs at a constant rate, whatever the clock frequency of the
+// cores.
 namespace packtrace::PACKTRACE_ISA {
 namespace {
 
@@ -23,7 +24,7 @@ inline std::uint64_t ticks()
 #endif
 }
 
-/// The time after all instructions before have finished, and before any later one begins.
+/// The time after all earlier instructions have finished and before any later one starts.
 inline std::uint64_t fenced_ticks()
 {
 #if defined(__aarch64__)

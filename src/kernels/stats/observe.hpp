@@ -4,10 +4,10 @@
 #include "kernel_abi/observation.hpp"
 #include "kernels/simd/lanes.hpp"
 
-// Hooks throughout the kernels that tell where time and tests go. A source that defines
-// PACKTRACE_OBSERVED has those of stage_clock.hpp, work_counts.hpp and unsure_causes.hpp; for all
-// others they are nothing. They find what to record into by themselves: to hand it down would
-// change functions that other kernels run.
+// Hooks throughout the kernels that record times and counts. A source that defines
+// PACKTRACE_OBSERVED gets the hooks of stage_clock.hpp, work_counts.hpp and unsure_causes.hpp; in
+// all others the hooks are empty. A hook finds the record of the current tile by itself: a
+// parameter for it would change functions that the other kernels use.
 #if defined(PACKTRACE_OBSERVED)
 
 #include "kernels/stats/unsure_causes.hpp"
@@ -17,10 +17,10 @@
 namespace packtrace::PACKTRACE_ISA {
 namespace {
 
-/// Takes what a hook is told, and does nothing.
+/// Accepts the arguments of any hook and does nothing.
 struct Nothing {
-    template <class... Told>
-    constexpr void operator()(const Told&...) const
+    template <class... Arguments>
+    constexpr void operator()(const Arguments&...) const
     {
     }
 };
@@ -28,11 +28,11 @@ struct Nothing {
 inline constexpr Nothing begin_observation;
 inline constexpr Nothing end_observation;
 inline constexpr Nothing begin_stage;
-inline constexpr Nothing tell_chunk;
-inline constexpr Nothing tell_untraced;
-inline constexpr Nothing tell_live;
-inline constexpr Nothing tell_pixels;
-inline constexpr Nothing tell_first;
+inline constexpr Nothing record_chunk;
+inline constexpr Nothing record_untraced;
+inline constexpr Nothing record_live;
+inline constexpr Nothing record_pixels;
+inline constexpr Nothing record_first;
 inline constexpr Nothing count_tests;
 inline constexpr Nothing count_block_tests;
 inline constexpr Nothing count_bundle_node;
@@ -85,10 +85,10 @@ constexpr abi::Step step_of(abi::Primitive)
     return {};
 }
 
-/// All scopes.
+/// Stands for every scope class.
 struct NoScope {
-    template <class... Told>
-    explicit NoScope(const Told&...)
+    template <class... Arguments>
+    explicit NoScope(const Arguments&...)
     {
     }
     void next(abi::Step) const

@@ -3,11 +3,11 @@
 #include "kernels/stats/cycle_counter.hpp"
 #include "kernels/stats/observer.hpp"
 
-// The hooks that clock the stages of a tile's work, into TileJob::observation.
+// The hooks that clock the stages of a tile, for TileJob::observation.
 namespace packtrace::PACKTRACE_ISA {
 namespace {
 
-/// Gives the time since the last reading to where the tile was at.
+/// Adds the time since the last reading to the current stage or step.
 [[gnu::noinline]] void take_ticks()
 {
     Observer& at = observer;
@@ -40,7 +40,7 @@ inline void go_to_generation(int generation)
     observer.counts = to.counts != nullptr ? to.counts + known : nullptr;
 }
 
-/// What a reading between steps takes, the least of a few.
+/// The time that one reading between steps takes: the minimum of a few measurements.
 inline std::uint64_t time_of_reading()
 {
     std::uint64_t least = ~std::uint64_t{0};
@@ -75,7 +75,7 @@ inline void end_observation()
     observer = {};
 }
 
-/// The next stage of a generation begins, with `step`.
+/// Starts the next stage of a generation, with `step`.
 inline void begin_stage(abi::Stage stage, int generation, abi::Step step)
 {
     if (observer.to == nullptr)
@@ -87,7 +87,7 @@ inline void begin_stage(abi::Stage stage, int generation, abi::Step step)
     observer.step = step;
 }
 
-/// Until its end the time goes to a step, or to one after another.
+/// During its lifetime the time counts for a step; next() changes the step.
 class StepScope {
 public:
     explicit StepScope(abi::Step step) : before_(observer.step)
@@ -113,7 +113,7 @@ private:
     abi::Step before_;
 };
 
-/// Until its end the work is for shadow rays, and begins with `step`.
+/// During its lifetime the work counts for shadow rays, starting with `step`.
 class ShadowScope {
 public:
     explicit ShadowScope(abi::Step step) : before_(observer.step)
@@ -138,7 +138,7 @@ private:
     abi::Step before_;
 };
 
-/// Until its end unsure rays are traced again; the steps of that count as one.
+/// During its lifetime unsure rays are traced again. All steps of that count as one step.
 class RetraceScope {
 public:
     RetraceScope() : step_(abi::Step::retrace), steps_(observer.steps)

@@ -2,7 +2,7 @@
 
 #include "kernels/stats/work_counts.hpp"
 
-// The hooks that count unsure rays, by what makes them so.
+// The hooks that count unsure rays by cause.
 namespace packtrace::PACKTRACE_ISA {
 namespace {
 
@@ -16,7 +16,8 @@ constexpr std::int32_t rival_for(abi::Cause cause)
     return -2 - static_cast<std::int32_t>(cause);
 }
 
-/// The surface `number` may come before what the lanes of `lowered` hit; -1 is the range's end.
+/// In the lanes of `lowered`, the surface `number` may be hit before the hit that is kept. -1 means
+/// the end of the range.
 template <class Real>
 inline void note_rival(const vmask<Real>& lowered, const vint<Real>& number)
 {
@@ -28,8 +29,8 @@ inline void note_rival(const vmask<Real>& lowered, const vint<Real>& number)
         observer.rival[__builtin_ctz(left)] = numbers[__builtin_ctz(left)];
 }
 
-/// Something may come before it: of the lanes of `at_end` a hit that may be before t_min, of the
-/// others one that may not be.
+/// In the lanes of `lowered`, a hit may come before the one that is kept. In the lanes of `at_end`
+/// it exists but may be before t_min; in the others it may not exist.
 template <class Real>
 inline void note_doubt(const vmask<Real>& lowered, std::uint32_t at_end)
 {
@@ -38,25 +39,26 @@ inline void note_doubt(const vmask<Real>& lowered, std::uint32_t at_end)
                                      vint<Real>(rival_for(abi::Cause::tangent))));
 }
 
-/// Nothing is known of the lanes.
+/// Nothing is known of the lanes in `lowered`.
 template <class Real>
 inline void note_magnitude(const vmask<Real>& lowered)
 {
     note_rival<Real>(lowered, vint<Real>(rival_for(abi::Cause::magnitude)));
 }
 
-/// The same of one ray of a bundle.
+/// note_rival() for one ray of a bundle.
 inline void note_rival_of_ray(int ray, std::int32_t number)
 {
     observer.rival_of_ray[ray] = number;
 }
-/// What note_doubt() has of a hit that may be before t_min, or may not be.
+/// The value that note_doubt() records for a hit that may be before t_min (`at_end`), or may not
+/// exist.
 inline std::int32_t rival_in_doubt(bool at_end)
 {
     return rival_for(at_end ? abi::Cause::range : abi::Cause::tangent);
 }
 
-/// A packet of a bundle is taken up, or put back. What doubles have is never in doubt.
+/// Call these where a packet of a bundle is loaded and stored. Rays in double are never unsure.
 template <class Real>
 inline void load_rivals(int first)
 {
@@ -72,7 +74,7 @@ inline void store_rivals(int first)
             observer.rival_of_ray[first + lane] = observer.rival[lane];
 }
 
-/// One ray of a bundle is taken up as a packet, or put back.
+/// Call these where one ray of a bundle is loaded as a packet and stored.
 template <class Real>
 inline void load_rival_of_ray(int ray)
 {
@@ -87,8 +89,8 @@ inline void store_rival_of_ray(int ray)
         observer.rival_of_ray[ray] = observer.rival[0];
 }
 
-/// Something may be in the way of the lanes of `unsure`. Those that no bound holds for are told of
-/// before all others of a packet, and keep that cause.
+/// An object may occlude the lanes of `unsure`. Lanes with too large or small magnitudes are
+/// recorded before all other causes of a packet, and keep that cause.
 inline void note_in_the_way(std::uint32_t unsure, abi::Cause cause)
 {
     if (cause == abi::Cause::magnitude)
@@ -99,7 +101,7 @@ inline void note_in_the_way(std::uint32_t unsure, abi::Cause cause)
         observer.noted[__builtin_ctz(unsure)] = cause;
 }
 
-/// What was noted of lanes is so of the rays of the packet at `first` of a bundle.
+/// Copies the causes of lanes to the rays of the packet at `first` of a bundle.
 inline void keep_noted(int first, std::uint32_t unsure)
 {
     observer.beyond = 0;
@@ -108,7 +110,7 @@ inline void keep_noted(int first, std::uint32_t unsure)
             observer.noted[__builtin_ctz(unsure)];
 }
 
-/// What was noted of any lane of `unsure` is so of one ray of a bundle.
+/// Copies the cause of any lane of `unsure` to one ray of a bundle.
 inline void keep_noted_of_ray(int ray, std::uint32_t unsure)
 {
     observer.noted_of_ray[ray] = observer.noted[__builtin_ctz(unsure)];
@@ -122,7 +124,8 @@ inline void count_unsure(abi::Cause cause, int ray)
         ++pixel_of(ray).unsure;
 }
 
-/// Why nothing tells which of two comes first; `object_of(surface)` is a surface's object.
+/// The cause for which either of two surfaces may be hit first. `object_of(surface)` is the object
+/// of a surface.
 template <class ObjectOf>
 inline abi::Cause cause_of(std::int32_t surface, std::int32_t rival, const ObjectOf& object_of)
 {
@@ -135,7 +138,7 @@ inline abi::Cause cause_of(std::int32_t surface, std::int32_t rival, const Objec
     return object_of(rival) == object_of(surface) ? abi::Cause::clip : abi::Cause::order;
 }
 
-/// Lanes of the packet are unsure of their closest hits, which are so far on `surface`.
+/// Counts lanes of a packet that are unsure of their closest hits, which are on `surface` so far.
 template <class ObjectOf>
 inline void count_unsure_lanes(std::uint32_t unsure, const lane_int<float>* surface,
                                const ObjectOf& object_of)
@@ -151,7 +154,7 @@ inline void count_unsure_lanes(std::uint32_t unsure, const lane_int<float>* surf
     }
 }
 
-/// The same of a ray of a bundle.
+/// The same for one ray of a bundle.
 template <class ObjectOf>
 inline void count_unsure_ray(int ray, std::int32_t surface, const ObjectOf& object_of)
 {
@@ -163,7 +166,7 @@ inline void count_unsure_ray(int ray, std::int32_t surface, const ObjectOf& obje
     count_unsure(cause, ray);
 }
 
-/// Shadow rays of a packet, or of a bundle, are unsure of what is in their way.
+/// Counts the shadow rays of a packet, or one of a bundle, that are unsure of being occluded.
 inline void count_unsure_shadows(std::uint32_t unsure)
 {
     if (observer.to != nullptr)
@@ -182,7 +185,7 @@ inline bool asks_for_undecided()
     return counts_pixels();
 }
 
-/// Double cannot decide about an unsure ray either.
+/// Counts an unsure ray that double cannot decide either.
 inline void count_undecided(int ray)
 {
     ++pixel_of(observer.first + ray).undecided;

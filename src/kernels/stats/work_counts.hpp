@@ -3,26 +3,27 @@
 #include "kernel_abi/bvh_view.hpp"
 #include "kernels/stats/stage_clock.hpp"
 
-// The hooks that count a tile's packets, tests and nodes, into TileJob::observation.
+// The hooks that count packets, tests and nodes of a tile, for TileJob::observation.
 namespace packtrace::PACKTRACE_ISA {
 namespace {
 
-/// The rays that are traced next, after their stage began.
-inline void tell_chunk(int refracted, int rays)
+/// Records the chunk of rays that is traced next; call it after the stage has begun.
+inline void record_chunk(int refracted, int rays)
 {
     observer.refracted_share = static_cast<double>(refracted) / rays;
     if (observer.counts != nullptr)
         observer.counts->refracted += static_cast<unsigned>(refracted);
 }
 
-/// Camera rays of a tile that can meet nothing.
-inline void tell_untraced(std::uint64_t rays)
+/// Records camera rays of a tile in which no object is visible.
+inline void record_untraced(std::uint64_t rays)
 {
     if (observer.counts != nullptr)
         observer.counts->untraced += rays;
 }
 
-/// A packet does `work` for the lanes of `active`, with the same result in those of `same`.
+/// Counts a packet that does `work` for the lanes of `active`, with the same result in the lanes of
+/// `same`.
 template <class Real>
 inline void count_packet(abi::PacketWork work, std::uint32_t active, std::uint32_t same = 0)
 {
@@ -34,7 +35,7 @@ inline void count_packet(abi::PacketWork work, std::uint32_t active, std::uint32
     packets.coherent += (active & same) == all_lanes<Real> ? 1 : 0;
 }
 
-/// Adds to what is counted of the pixels of the lanes of `active`.
+/// Adds one ray to the pixels of the lanes of `active`.
 template <class Real>
 inline void count_pixels(std::uint32_t active, const vint<Real>& pixel)
 {
@@ -44,7 +45,7 @@ inline void count_pixels(std::uint32_t active, const vint<Real>& pixel)
         ++observer.to->pixels[number[__builtin_ctz(active)]].traced;
 }
 
-/// A packet found which surfaces its rays meet.
+/// Counts a packet that has found its closest hits.
 template <class Real>
 inline void count_traced(std::uint32_t active, const vint<Real>& surface, const vint<Real>& pixel)
 {
@@ -60,7 +61,7 @@ inline void count_traced(std::uint32_t active, const vint<Real>& surface, const 
     count_packet<Real>(abi::PacketWork::trace, active, same);
 }
 
-/// A packet found which of its shadow rays reach the light, which are returned.
+/// Counts a packet that has found which of its shadow rays reach the light; returns those.
 template <class Real>
 inline std::uint32_t count_lit(std::uint32_t active, std::uint32_t lit)
 {
@@ -68,8 +69,8 @@ inline std::uint32_t count_lit(std::uint32_t active, std::uint32_t lit)
     return lit;
 }
 
-/// Objects will be tested against a packet with rays in these lanes.
-inline void tell_live(std::uint32_t active)
+/// Records the lanes of the packet that objects are tested against next.
+inline void record_live(std::uint32_t active)
 {
     observer.live = active;
 }
@@ -79,7 +80,7 @@ inline abi::TestCounts& tests_of(abi::Primitive kind)
     return observer.counts->tests[index(observer.purpose)][index(kind)];
 }
 
-/// The packet is tested against `objects` of a kind.
+/// Counts tests of the packet against `objects` objects of a kind.
 inline void count_tests(abi::Primitive kind, int objects)
 {
     if (observer.counts == nullptr)
@@ -88,7 +89,7 @@ inline void count_tests(abi::Primitive kind, int objects)
     tests_of(kind).pairs += popcount(observer.live) * static_cast<unsigned>(objects);
 }
 
-/// One ray is tested against the spheres of a block side by side.
+/// Counts the tests of one ray against the spheres of a block, side by side.
 template <class Real>
 inline void count_block_tests(const abi::SphereBlock<Real>& block)
 {
@@ -107,7 +108,7 @@ constexpr abi::Step step_of(abi::Primitive kind)
     return steps[static_cast<int>(kind)];
 }
 
-/// Until its end a packet is tested against lists of objects, one kind after another.
+/// During its lifetime a packet is tested against lists of objects, one kind after another.
 class TestScope {
 public:
     void test(abi::Primitive kind, int objects = 1) const
@@ -122,33 +123,33 @@ private:
     StepScope step_{observer.step};
 };
 
-/// A node is met by the frustum of several rays.
+/// Counts a node tested against the frustum of several rays.
 inline void count_bundle_node()
 {
     if (observer.counts != nullptr)
         ++observer.counts->group_nodes[index(observer.purpose)];
 }
 
-/// A node is met by one ray.
+/// Counts a node tested against one ray.
 inline void count_ray_node()
 {
     if (observer.counts != nullptr)
         ++observer.counts->ray_nodes[index(observer.purpose)];
 }
 
-/// The pixels of the rays that are traced next, or of the hits that shadow rays start from; null
-/// for camera rays, each of which has its pixel's number.
-inline void tell_pixels(const lane_int<float>* pixels)
+/// Records the pixels of the rays that are traced next, or of the hits that shadow rays start from;
+/// null for camera rays, whose numbers are their pixels.
+inline void record_pixels(const lane_int<float>* pixels)
 {
     observer.pixels = pixels;
     observer.first = 0;
 }
-inline void tell_pixels(const lane_int<double>*)
+inline void record_pixels(const lane_int<double>*)
 {
 }
 
-/// The number among them of the first ray of the packet at hand.
-inline void tell_first(int first)
+/// Records the number of the current packet's first ray among these.
+inline void record_first(int first)
 {
     observer.first = first;
 }
@@ -158,7 +159,7 @@ inline abi::PixelRays& pixel_of(int ray)
     return observer.to->pixels[observer.pixels != nullptr ? observer.pixels[ray] : ray];
 }
 
-/// Shadow rays start from the hits of a packet.
+/// Counts the shadow rays that start from the hits of a packet.
 inline void count_shadow_pixels(int first, std::uint32_t wanted)
 {
     if (!counts_pixels() || observer.pixels == nullptr)

@@ -4,14 +4,13 @@
 #include "kernels/shade/shadow.hpp"
 #include "kernels/stream/tile_memory.hpp"
 
-// Shadow rays of a whole chunk of hits at once, where the scene has a hierarchy: one cone from
-// the light, or along it.
+// Shadow rays of a chunk of hits as one bundle per light, for scenes with a BVH.
 namespace packtrace::PACKTRACE_ISA {
 namespace {
 
-/// Fills a bundle with the rays between the hits and one light that can add anything to them, and
-/// calls `keeps_own(first, lanes)` for those of each packet that their own surface is in the way
-/// of; it returns the lanes that nothing further matters to.
+/// Fills a bundle with the shadow rays between the hits and one light that can add light to them.
+/// Calls `keeps_own(first, lanes)` with the lanes of each packet that their own object occludes; it
+/// returns the lanes that need no further occluders.
 template <abi::Features F, class Real, class KeepsOwn>
 inline void gather_shadow_rays(const ShadeContext<F, Real>& context, const HitStream<F, Real>& hits,
                                int light, RayBundle<Real>& bundle, const KeepsOwn& keeps_own)
@@ -36,7 +35,7 @@ inline void gather_shadow_rays(const ShadeContext<F, Real>& context, const HitSt
     end_bundle(bundle, hits.count);
 }
 
-/// The light's own view of the hierarchy; null where it has none.
+/// The light buffer of a light; null if it has none.
 template <class Real>
 inline const abi::LightBuffer* light_buffer(const abi::SceneView<Real>& casters, int light)
 {
@@ -50,17 +49,17 @@ inline void visit_shadow_occluders(const ShadeContext<F, Real>& context, int lig
 {
     const abi::SceneView<Real>& scene = *context.scene;
     const abi::SceneView<Real>& casters = casters_of(scene);
-    const bool closed = has_closed_reach(scene, scene.lighting.lights.data[light]);
+    const RayInterval interval = shadow_interval(scene, scene.lighting.lights.data[light]);
     with_light_objects(context, light, [&](const auto& objects) {
-        visit_occluders_of_bundle<F>(casters, objects, bundle, closed, occluder,
+        visit_occluders_of_bundle<F>(casters, objects, bundle, interval, occluder,
                                      light_buffer(casters, light));
     });
 }
 
-/// Looks again, in double, at the active rays of a bundle that something may be in the way of.
-/// `start_again(first, lanes)` takes back what is known of those of a packet.
+/// Decides in double the active rays of a bundle that may be occluded. `start_again(first, lanes)`
+/// resets the result of such rays of a packet.
 template <abi::Features F, class Real, class StartAgain>
-inline void settle_shadow_bundle(const ShadeContext<F, Real>& context, int light,
+inline void decide_shadow_bundle(const ShadeContext<F, Real>& context, int light,
                                  RayBundle<Real>& bundle, const Occluder& occluder,
                                  const StartAgain& start_again)
 {
@@ -74,7 +73,7 @@ inline void settle_shadow_bundle(const ShadeContext<F, Real>& context, int light
             count_unsure_shadow(wide.from[i]);
         const abi::SceneView<Real>& scene = *context.scene;
         block_wide<F.probe>(*casters_of(scene).wide, wide,
-                            has_closed_reach(scene, scene.lighting.lights.data[light]),
+                            shadow_interval(scene, scene.lighting.lights.data[light]),
                             scene.lighting.transparent_shadows ? Occluders::all : Occluders::any,
                             [&](int ray, std::int32_t surface) {
                                 const int first = ray / lanes<Real> * lanes<Real>;
@@ -93,7 +92,7 @@ inline void copy_active(const RayBundle<Real>& bundle, std::uint16_t (&to)[bundl
         to[cell] = bundle.active[cell];
 }
 
-/// Fills the shadows of one light where occluders pass on a share of it.
+/// Computes the shadows of one light if occluders transmit a share of it.
 template <abi::Features F, class Real>
 inline void find_shares(const ShadeContext<F, Real>& context, const HitStream<F, Real>& hits,
                         int light, RayBundle<Real>& bundle, LightShadows<F, Real>& shadows)
@@ -120,7 +119,7 @@ inline void find_shares(const ShadeContext<F, Real>& context, const HitStream<F,
         return shadows.dim(scene, surface, first, blocked);
     };
     visit_shadow_occluders<F>(context, light, bundle, Occluder(pass_on));
-    settle_shadow_bundle<F>(context, light, bundle, Occluder(pass_on),
+    decide_shadow_bundle<F>(context, light, bundle, Occluder(pass_on),
                             [&](int first, std::uint32_t lanes_of) {
                                 shadows.brighten(first, lanes_of);
                                 dim_by_own(first, by_own[first / lanes<Real>] & lanes_of);
@@ -128,7 +127,7 @@ inline void find_shares(const ShadeContext<F, Real>& context, const HitStream<F,
     copy_active(bundle, shadows.lit);
 }
 
-/// Fills the shadows of one light: which hits see it, and through how much.
+/// Computes the shadows of one light: which hits it reaches, and with which share.
 template <abi::Features F, class Real>
 inline void find_shadows(const ShadeContext<F, Real>& context, const HitStream<F, Real>& hits,
                          int light, RayBundle<Real>& bundle, LightShadows<F, Real>& shadows)
@@ -139,7 +138,7 @@ inline void find_shadows(const ShadeContext<F, Real>& context, const HitStream<F
             return find_shares(context, hits, light, bundle, shadows);
     gather_shadow_rays(context, hits, light, bundle, [](int, std::uint32_t own) { return own; });
     visit_shadow_occluders<F>(context, light, bundle, Occluder());
-    settle_shadow_bundle<F>(context, light, bundle, Occluder(), [](int, std::uint32_t) {});
+    decide_shadow_bundle<F>(context, light, bundle, Occluder(), [](int, std::uint32_t) {});
     copy_active(bundle, shadows.lit);
 }
 

@@ -3,8 +3,8 @@
 #include "kernel_abi/kernel_table.hpp"
 #include "kernels/geometry/cone.hpp"
 
-// Camera rays of a tile, along its Z-order curve: 2, 4, 8 or 16 neighbours are a block of
-// 2x1, 2x2, 4x2 or 4x4 pixels, so packets of every width are compact and in the same order.
+// Camera rays of a tile, along its Z-order curve: 2, 4, 8 or 16 neighbours are a block of 2x1, 2x2,
+// 4x2 or 4x4 pixels. So packets of every width are compact, and rays have the same order.
 namespace packtrace::PACKTRACE_ISA {
 namespace {
 
@@ -14,7 +14,7 @@ inline Real dot3(const Real (&a)[3], const Real (&b)[3])
     return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 }
 
-/// A tile's middle direction, of unit length, and from there the way to its right and upper edge.
+/// The unit direction of a tile's centre, and the vectors from there to its right and upper edge.
 template <class Real>
 struct TileAxes {
     Real middle[3], right[3], up[3];
@@ -22,7 +22,7 @@ struct TileAxes {
     explicit TileAxes(const abi::TileJob<Real>& job)
     {
         const abi::CameraView<Real>& camera = *job.camera;
-        // From pixel to pixel, or for samples from edge to edge.
+        // From pixel centre to pixel centre, or for samples from edge to edge.
         const int side = job.samples != nullptr ? abi::tile_size : abi::tile_size - 1;
         const Real half = Real(0.5) * static_cast<Real>(side);
         const Real x = static_cast<Real>(job.x) + camera.first_x + half;
@@ -46,14 +46,14 @@ inline void cross3(Real (&product)[3], const Real (&a)[3], const Real (&b)[3])
         product[i] = a[(i + 1) % 3] * b[(i + 2) % 3] - a[(i + 2) % 3] * b[(i + 1) % 3];
 }
 
-/// From this tangent on a tile's cone counts as no bound. Up to there its tangent is off by so many
-/// times the roundoff: what is across the middle is a difference of products that may cancel, as in
-/// views of nearly half a turn.
+/// A tile's cone with a larger tangent counts as not bounded. Up to this value the tangent's error
+/// is at most this many roundoffs: the distance from the centre direction is a difference of
+/// products that may cancel, as in views of nearly 180 degrees.
 template <class Real>
 inline constexpr Real largest_tangent = Real(16);
 
-/// The squared tangent of the angle between a tile's middle and its farthest corner; negative
-/// when a corner is nearly a right angle away or more.
+/// The squared tangent of the angle between a tile's centre and its furthest corner; negative if a
+/// corner is nearly a right angle away or more.
 template <class Real>
 inline Real widest_tangent2(const TileAxes<Real>& tile)
 {
@@ -70,7 +70,7 @@ inline Real widest_tangent2(const TileAxes<Real>& tile)
         const Real x = (corner & 1) ? Real(1) : Real(-1);
         const Real y = (corner & 2) ? Real(1) : Real(-1);
         const Real along = Real(1) + (x * right_along + y * up_along);
-        // A corner is no further away than the longer diagonal, which is below twice the sides.
+        // A corner is at most as far away as the longer diagonal, which is below twice the sides.
         if (!(along > 0) ||
             Real(2) * sides2 > largest_tangent<Real> * largest_tangent<Real> * along * along)
             return Real(-1);
@@ -80,7 +80,7 @@ inline Real widest_tangent2(const TileAxes<Real>& tile)
     return widest;
 }
 
-/// The cone through a tile: around its middle, as wide as its farthest corner.
+/// The cone of a tile's camera rays: around its centre, as wide as its furthest corner.
 template <class Real>
 inline Cone<Real> camera_cone(const abi::TileJob<Real>& job)
 {
@@ -100,13 +100,13 @@ inline Cone<Real> camera_cone(const abi::TileJob<Real>& job)
     return cone;
 }
 
-/// Every second bit of a number in a tile's Z-order, from bit 0.
+/// Every second bit of a number on a tile's Z-order curve, from bit 0.
 constexpr int even_bits(int number)
 {
     return (number & 1) | ((number >> 1) & 2) | ((number >> 2) & 4) | ((number >> 3) & 8);
 }
 
-/// Column and row in the tile of each ray.
+/// The column and row of each ray in the tile.
 template <class Real>
 struct TilePixels {
     alignas(64) Real column[abi::tile_pixels] = {};
@@ -124,7 +124,7 @@ struct TilePixels {
 template <class Real>
 constexpr TilePixels<Real> tile_pixels;
 
-/// The rays of a tile's packet that are within its width and height, or its samples.
+/// The lanes of a packet that are within the tile's width and height, or within its samples.
 template <class Real>
 inline std::uint32_t lanes_inside(const abi::TileJob<Real>& job, int first)
 {
@@ -138,13 +138,13 @@ inline std::uint32_t lanes_inside(const abi::TileJob<Real>& job, int first)
                 (load(tile_pixels<Real>.row + first) < height));
 }
 
-/// The camera of one tile: a copy, which no store to the tile's memory can change, so that it
+/// The camera of one tile. It is a copy, so that no store to the tile's memory can change it and it
 /// stays in registers.
 template <class Real>
 struct TileCamera {
     abi::CameraView<Real> view;
     Real left, top;      ///< canvas position of the tile's first pixel
-    const Real* column;  ///< of each ray, counted from there
+    const Real* column;  ///< column of each ray, counted from there
     const Real* row;
 
     explicit TileCamera(const abi::TileJob<Real>& job)
@@ -157,8 +157,8 @@ struct TileCamera {
     }
 };
 
-/// Rays `first` to `first + lanes`: directions forward + x right + y up, made unit for the
-/// models that want it.
+/// The camera rays `first` to `first` + lanes - 1: directions forward + x right + y up, normalised
+/// for the models that ask for it.
 template <class Real>
 inline RayPacket<Real> camera_rays(const TileCamera<Real>& camera, int first, abi::RayUnits units)
 {

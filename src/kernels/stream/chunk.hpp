@@ -7,12 +7,11 @@
 #include "kernels/stream/trace_stream.hpp"
 #include "kernels/stream/workspace.hpp"
 
-// A chunk of rays of one generation, from where they start to the light at their hits and the rays
-// that go on from there.
+// Processes a chunk of rays of one generation: closest hits, their light, and the child rays.
 namespace packtrace::PACKTRACE_ISA {
 namespace {
 
-/// What stays the same while a tile, or some together, is rendered.
+/// The state shared by the tiles that are rendered together.
 template <abi::Features F, class Real>
 struct TileRun {
     const abi::SceneView<Real>& scene;
@@ -20,11 +19,12 @@ struct TileRun {
     abi::RayCounts& counts;
 };
 
-/// Per light, what may stand between it and the hit points. Whether that is all in lists.
+/// Finds the possible occluders between each light and the hits. Returns whether all of them are in
+/// lists.
 template <abi::Features F, class Real>
 inline bool find_occluders(const TileRun<F, Real>& run)
 {
-    // Where no light has shadows there is no room for their occluders either.
+    // If no light has shadows, there is no memory for occluders either.
     if (run.work.occluders == nullptr)
         return true;
     bool by_lists = true;
@@ -52,7 +52,7 @@ inline bool find_occluders(const TileRun<F, Real>& run)
     return by_lists;
 }
 
-/// For a scene with a hierarchy, the surfaces at the hits, which every light's rays start from.
+/// With a BVH: computes the surfaces at the hits, which the shadow rays of all lights start from.
 template <abi::Features F, class Real>
 inline void find_surfaces(const TileRun<F, Real>& run)
 {
@@ -62,7 +62,7 @@ inline void find_surfaces(const TileRun<F, Real>& run)
             surface_of<F>(run.scene, hits, first, first_lanes<Real>(hits.count - first));
 }
 
-/// What the hits see of each light there.
+/// Computes the shadows of each light at the hits.
 template <abi::Features F, class Real>
 inline void find_shadows(const TileRun<F, Real>& run, const ShadeContext<F, Real>& context)
 {
@@ -73,7 +73,7 @@ inline void find_shadows(const TileRun<F, Real>& run, const ShadeContext<F, Real
                          run.work.shadows[light]);
 }
 
-/// Counts a chunk's children and puts them into one stream, mirrored rays first.
+/// Counts a chunk's child rays and joins them in one stream, reflected rays first.
 template <abi::Features F, class Real>
 inline void join_children(const TileRun<F, Real>& run, RayStream<F, Real>& next, int depth)
 {
@@ -83,7 +83,7 @@ inline void join_children(const TileRun<F, Real>& run, RayStream<F, Real>& next,
     if constexpr (F.glass) {
         begin_stage(abi::Stage::children, depth, abi::Step::children);
         if constexpr (F.probe)
-            next.mirrored = next.count;
+            next.reflected_count = next.count;
         const RayStream<F, Real>& refracted = *run.work.refracted;
         run.counts.refracted += static_cast<unsigned>(refracted.count);
         if (refracted.count > 0)
@@ -92,8 +92,8 @@ inline void join_children(const TileRun<F, Real>& run, RayStream<F, Real>& next,
     }
 }
 
-/// Shades the chunk's hits, of rays after `depth` bounces, into the pixels, and gathers in `next`
-/// the rays that go on from there. Leaves `next` alone, and returns null, where none may.
+/// Shades the hits of a chunk, of rays after `depth` bounces, into the pixels, and collects their
+/// child rays in `next`. Returns null, and does not change `next`, if there can be no child rays.
 template <abi::Features F, class Real>
 inline RayStream<F, Real>* shade_chunk(const TileRun<F, Real>& run, PixelWrite write, int depth,
                                        RayStream<F, Real>* next)
@@ -101,7 +101,7 @@ inline RayStream<F, Real>* shade_chunk(const TileRun<F, Real>& run, PixelWrite w
     const HitStream<F, Real>& hits = run.work.memory->hits;
     if (hits.count == 0)
         return nullptr;
-    tell_pixels(hits.pixel);
+    record_pixels(hits.pixel);
     run.counts.passed |= abi::passed_normals;
     if constexpr (F.exact)
         run.counts.passed |= abi::passed_refined;
@@ -134,23 +134,26 @@ inline RayStream<F, Real>* shade_chunk(const TileRun<F, Real>& run, PixelWrite w
     return next;
 }
 
-/// How many rays of a chunk are refracted; they stand behind the mirrored ones.
+/// The number of refracted rays in a chunk; they follow the reflected ones.
 template <abi::Features F, class Real>
 inline int refracted_rays(const RayStream<F, Real>& rays, int begin, int end)
 {
-    return rays.mirrored < begin ? end - begin : rays.mirrored < end ? end - rays.mirrored : 0;
+    return rays.reflected_count < begin ? end - begin
+           : rays.reflected_count < end ? end - rays.reflected_count
+                                        : 0;
 }
 
-/// Traces the rays `begin` to `end` of a stream, a chunk, and shades their hits; as shade_chunk().
+/// Traces the rays `begin` to `end` of a stream, one chunk, and shades their hits as shade_chunk()
+/// does.
 template <abi::Features F, class Real>
 [[gnu::noinline]] RayStream<F, Real>* trace_chunk(const TileRun<F, Real>& run,
                                                   const RayStream<F, Real>& rays, int begin,
                                                   int end, int depth, RayStream<F, Real>* next)
 {
     begin_stage(abi::Stage::trace, depth, abi::Step::ray_generation);
-    tell_pixels(rays.pixel + begin);
+    record_pixels(rays.pixel + begin);
     if constexpr (F.probe)
-        tell_chunk(refracted_rays(rays, begin, end), end - begin);
+        record_chunk(refracted_rays(rays, begin, end), end - begin);
     const int count = end - begin;
     const Box<Real> box =
         box_of_run<Real>({rays.org[0] + begin, rays.org[1] + begin, rays.org[2] + begin}, count);

@@ -5,23 +5,25 @@
 #include "kernels/stream/hit_writer.hpp"
 #include "kernels/stream/ray_chunks.hpp"
 
-// Closest hits of rays from outside.
+// Closest hits of rays from the caller.
 namespace packtrace::PACKTRACE_ISA {
 namespace {
 
-/// Finds and stores the hits of a packet where they are on one surface (common_hit.hpp); false
-/// where that can't be told. `eye` is the rays' origin where they share it.
+/// Finds and stores the hits of a packet if they are all on one surface (common_hit.hpp). Returns
+/// false if that cannot be decided. `shared_origin` is the rays' origin if they share it.
 template <Refine R, Origin O, class Writer>
 inline bool store_if_common(Writer& writer, const CommonObjects& common,
-                            const StreamPacket<float>& packet, const float (&eye)[3], int at)
+                            const StreamPacket<float>& packet, const float (&shared_origin)[3],
+                            int at)
 {
     const RayPacket<float>& rays = packet.rays;
     const std::uint32_t live = first_lanes<float>(packet.count);
     const std::uint32_t fit = bits(certifiable(rays)) & bits(rays.t_min >= vreal<float>(0.0f));
     CommonHit hit;
-    if ((live & ~fit) != 0 || !find_common_hit<R, O>(hit, common, common, rays, eye, -1, live))
+    if ((live & ~fit) != 0 ||
+        !find_common_hit<R, O>(hit, common, common, rays, shared_origin, -1, live))
         return false;
-    // What ends before t_max for sure counts.
+    // Only hits certainly before t_max count.
     if (hit.lanes != 0 &&
         (hit.lanes & ~bits(hit.t * vreal<float>(1.0f + 0x1p-20f) < packet.t_max)) != 0)
         return false;
@@ -29,12 +31,15 @@ inline bool store_if_common(Writer& writer, const CommonObjects& common,
     return true;
 }
 
-// What passes over a chunk is a function of its own: in one with the code around it, the compiler
-// spills so much that rays took a quarter longer.
+/// Whether rays of a caller may start on surfaces.
+enum class RayStarts { anywhere, on_surfaces };
 
-/// Where the scene has no hierarchy: packet by packet, without a bundle in between. `Starts` tells
-/// whether rays may start on surfaces.
-template <bool Starts, abi::Features F, class Objects, class Real>
+// Each loop over a chunk is a function of its own: inlined into other code, the compiler spills so
+// many registers that rays took a quarter longer.
+
+/// For scenes without a BVH: packet by packet, without a bundle. `Starts`: rays may start on
+/// surfaces.
+template <RayStarts S, abi::Features F, class Objects, class Real>
 [[gnu::noinline]] void closest_chunk_in_lists(const abi::SceneView<Real>& scene,
                                               const Objects& objects,
                                               const abi::RaysView<Real>& view, int begin, int end,
@@ -45,7 +50,7 @@ template <bool Starts, abi::Features F, class Objects, class Real>
         const std::uint32_t live = first_lanes<Real>(packet.count);
         StartPacket<Real> start = no_start<Real>();
         HitPacket<Real> hit = no_hit<Real>(packet.t_max);
-        if constexpr (Starts) {
+        if constexpr (S == RayStarts::on_surfaces) {
             start = start_of(scene, view, first, packet.rays);
             hit = start_of_search<F>(start, packet.rays.dir2, packet.t_max);
             closest_hit<F>(hit, objects, packet.rays,
@@ -53,12 +58,12 @@ template <bool Starts, abi::Features F, class Objects, class Real>
         } else {
             closest_hit<F>(hit, objects, packet.rays, NoOwn{});
         }
-        settle_packet<F>(scene, packet.rays, hit, start, packet.t_max, live);
+        correct_packet<F>(scene, packet.rays, hit, start, packet.t_max, live);
         writer.store_hits(packet.rays, hit, start, packet.t_max, first, packet.count);
     }
 }
 
-/// The same where packets may have a common hit; those that have none, and as many after them as
+/// The same if packets may have a common hit. Packets without one, and after each as many as
 /// `pause` says, go through the lists.
 template <Refine R, abi::Features F, class Objects>
 [[gnu::noinline]] void common_chunk_in_lists(const abi::SceneView<float>& scene,
@@ -66,30 +71,33 @@ template <Refine R, abi::Features F, class Objects>
                                              TryPause& pause, const abi::RaysView<float>& view,
                                              int begin, int end, HitWriter<F, float>& writer)
 {
-    constexpr Origin origin = Objects::shared ? Origin::shared : Origin::any;
-    const float eye[3] = {view.org[0][begin], view.org[1][begin], view.org[2][begin]};
+    constexpr Origin origin = Objects::origin;
+    const float shared_origin[3] = {view.org[0][begin], view.org[1][begin], view.org[2][begin]};
     int first = begin;
     while (first < end) {
         const int listed = first;
         for (; first < end && !pause.is_over(); first += lanes<float>) {
         }
         if (first > listed)
-            closest_chunk_in_lists<false, F>(scene, objects, view, listed,
-                                             first < end ? first : end, writer);
+            closest_chunk_in_lists<RayStarts::anywhere, F>(scene, objects, view, listed,
+                                                           first < end ? first : end, writer);
         for (bool found = true; found && first < end; first += lanes<float>) {
             found = store_if_common<R, origin>(writer, common, StreamPacket<float>(view, first),
-                                               eye, first);
-            pause.record(found);
-            if (!found)
-                closest_chunk_in_lists<false, F>(
-                    scene, objects, view, first,
-                    first + lanes<float> < end ? first + lanes<float> : end, writer);
+                                               shared_origin, first);
+            if (found) {
+                pause.record_success();
+                continue;
+            }
+            pause.record_failure();
+            closest_chunk_in_lists<RayStarts::anywhere, F>(
+                scene, objects, view, first,
+                first + lanes<float> < end ? first + lanes<float> : end, writer);
         }
     }
 }
 
-/// A bundle of `count` rays from `begin` on. `Starts` tells whether rays may start on surfaces.
-template <bool Starts, abi::Features F, class Real>
+/// Fills a bundle with `count` rays from `begin` on.
+template <RayStarts S, abi::Features F, class Real>
 [[gnu::noinline]] void fill_bundle(RayBundle<Real>& bundle, const abi::SceneView<Real>& scene,
                                    const abi::RaysView<Real>& view, int begin, int count)
 {
@@ -97,7 +105,7 @@ template <bool Starts, abi::Features F, class Real>
         const StreamPacket<Real> packet(view, begin + first);
         const std::uint32_t active = first_lanes<Real>(count - first) & numbers(packet);
         store_rays(bundle, first, packet.rays);
-        if constexpr (Starts) {
+        if constexpr (S == RayStarts::on_surfaces) {
             const StartPacket<Real> start = start_of(scene, view, begin + first, packet.rays);
             start_rays<F>(bundle, first, start_of_search<F>(start, packet.rays.dir2, packet.t_max),
                           start.surface, active);
@@ -109,10 +117,10 @@ template <bool Starts, abi::Features F, class Real>
 }
 
 template <abi::Features F, class Real>
-[[gnu::noinline]] void closest_chunk_in_tree(const abi::SceneView<Real>& scene,
-                                             const StreamWork<F, Real>& work,
-                                             const abi::RaysView<Real>& view, int begin, int end,
-                                             HitWriter<F, Real>& writer)
+[[gnu::noinline]] void closest_chunk_in_bvh(const abi::SceneView<Real>& scene,
+                                            const StreamWork<F, Real>& work,
+                                            const abi::RaysView<Real>& view, int begin, int end,
+                                            HitWriter<F, Real>& writer)
 {
     RayBundle<Real>& bundle = *work.bundle;
     const int count = end - begin;
@@ -124,11 +132,11 @@ template <abi::Features F, class Real>
         return load_some(view.t_max + begin + first, count - first);
     };
     if (view.start_surface == nullptr)
-        fill_bundle<false, F>(bundle, scene, view, begin, count);
+        fill_bundle<RayStarts::anywhere, F>(bundle, scene, view, begin, count);
     else
-        fill_bundle<true, F>(bundle, scene, view, begin, count);
+        fill_bundle<RayStarts::on_surfaces, F>(bundle, scene, view, begin, count);
     closest_of_bundle<F>(scene, work.nearby, bundle);
-    settle_bundle<F>(scene, bundle, start_at, t_max_at);
+    correct_bundle<F>(scene, bundle, start_at, t_max_at);
     for (int first = 0; first < count; first += lanes<Real>) {
         const RayPacket<Real> rays = load_rays(bundle, first);
         writer.store_hits(rays, load_hits(bundle, first), start_with(first, rays), t_max_at(first),
@@ -136,7 +144,7 @@ template <abi::Features F, class Real>
     }
 }
 
-/// The closest hits of a chunk of rays that start on no surface, where there is no hierarchy.
+/// The closest hits of a chunk of rays that start on no surface, without a BVH.
 template <abi::Features F, class Objects, class Real>
 inline void closest_chunk(const abi::SceneView<Real>& scene, StreamWork<F, Real>& work,
                           const Objects& objects, const abi::RaysView<Real>& view, int begin,
@@ -149,7 +157,7 @@ inline void closest_chunk(const abi::SceneView<Real>& scene, StreamWork<F, Real>
                                    : common_chunk_in_lists<Refine::t, F, Objects>;
             return chunk(scene, objects, work.common, work.pause, view, begin, end, writer);
         }
-    closest_chunk_in_lists<false, F>(scene, objects, view, begin, end, writer);
+    closest_chunk_in_lists<RayStarts::anywhere, F>(scene, objects, view, begin, end, writer);
 }
 
 template <abi::Features F, class Real>
@@ -161,11 +169,12 @@ inline void closest_hits(const abi::SceneView<Real>& scene, const abi::RaysView<
     HitWriter<F, Real> writer(scene, hits);
     for_each_chunk(work, scene, view, [&](int begin, int end) {
         if (!work.by_lists)
-            closest_chunk_in_tree(scene, work, view, begin, end, writer);
+            closest_chunk_in_bvh(scene, work, view, begin, end, writer);
         else if (work.shares_origin)
             closest_chunk(scene, work, work.from_point, view, begin, end, writer);
         else if (view.start_surface != nullptr)
-            closest_chunk_in_lists<true, F>(scene, work.nearby, view, begin, end, writer);
+            closest_chunk_in_lists<RayStarts::on_surfaces, F>(scene, work.nearby, view, begin, end,
+                                                              writer);
         else
             closest_chunk(scene, work, work.nearby, view, begin, end, writer);
     });

@@ -5,7 +5,7 @@
 #include "kernels/stream/trace_stream.hpp"
 #include "kernels/stream/workspace.hpp"
 
-// The camera rays of a tile without any shading.
+// Closest hits of the camera rays of a tile, without shading.
 namespace packtrace::PACKTRACE_ISA {
 namespace {
 
@@ -36,10 +36,10 @@ inline void store_tile_hits(abi::TileHits<Real>& hits, int first, const abi::Sce
     store(hits.surface + first, hit.surface);
 }
 
-/// Whether an object is among some, by the number of its first surface.
+/// Whether an object is in a list of objects, by the number of its first surface.
 class Listed {
 public:
-    explicit Listed(const FilteredObjects<true>& objects)
+    explicit Listed(const FilteredObjects<Origin::shared>& objects)
     {
         for_each_kind<abi::Features{.quadrics = true}>([&](auto kind) {
             const auto& list = objects_of<decltype(kind)>(objects);
@@ -61,28 +61,29 @@ private:
     int count_ = 0;
 };
 
-/// What the eye may see through a tile, of a scene of few objects, where most packets hit but one
-/// of them.
-class EyeObjects {
+/// The objects that are visible through a tile, for scenes of few objects, where most packets hit
+/// only one of them.
+class CameraObjects {
 public:
-    EyeObjects(const abi::SceneView<float>& scene, const float (&eye)[3],
-               const FilteredObjects<true>& visible)
-        : eye_(eye)
+    CameraObjects(const abi::SceneView<float>& scene, const float (&origin)[3],
+                  const FilteredObjects<Origin::shared>& visible)
+        : origin_(origin)
     {
         common_.spheres.use(spheres_);
         common_.grounds.use(grounds_);
         common_.balls.use(balls_);
         if (has_few_objects(scene))
-            fill_common(common_, scene, near_origins(scene, eye, eye), eye, Listed(visible));
+            fill_common(common_, scene, near_origins(scene, origin, origin), origin,
+                        Listed(visible));
     }
 
-    /// Finds and stores the hits of the packet at `first` where they are on one surface; false
-    /// where that can't be told.
+    /// Finds and stores the hits of the packet at `first` if they are all on one surface. Returns
+    /// false if that cannot be decided.
     bool store_hits(abi::TileHits<float>& hits, int first, const RayPacket<float>& rays) const
     {
         CommonHit hit;
         if (!common_.are_all || !all(certifiable(rays)) ||
-            !find_common_hit<Refine::t, Origin::shared>(hit, common_, common_, rays, eye_, -1,
+            !find_common_hit<Refine::t, Origin::shared>(hit, common_, common_, rays, origin_, -1,
                                                         all_lanes<float>))
             return false;
         const vmask<float> found = from_bits<float>(hit.lanes);
@@ -93,14 +94,14 @@ public:
     }
 
 private:
-    const float (&eye_)[3];
+    const float (&origin_)[3];
     CommonObjects common_;
     CommonSphere spheres_[most_common_objects];
     CommonGround grounds_[most_common_objects];
     CommonBall balls_[most_common_objects];
 };
 
-/// The closest hits of a tile's rays among the objects in lists.
+/// The closest hits of a tile's rays with the objects of lists.
 template <abi::Features F, class Objects, class Real>
 inline void closest_in_tile(const abi::TileJob<Real>& job, abi::TileHits<Real>& hits,
                             const Objects& visible)
@@ -111,12 +112,12 @@ inline void closest_in_tile(const abi::TileJob<Real>& job, abi::TileHits<Real>& 
     const auto find = [&](int first, const RayPacket<Real>& rays) {
         HitPacket<Real> hit = no_hit<Real>(never);
         closest_hit<F>(hit, visible, rays, NoOwn{});
-        settle_packet<F>(scene, rays, hit, no_start<Real>(), never, all_lanes<Real>);
+        correct_packet<F>(scene, rays, hit, no_start<Real>(), never, all_lanes<Real>);
         store_tile_hits<F>(hits, first, scene, rays, hit);
     };
     const auto packet = [&](int first) { return camera_rays(camera, first, scene.rules.units); };
     if constexpr (F.exact) {
-        const EyeObjects common(scene, job.camera->origin, visible);
+        const CameraObjects common(scene, job.camera->origin, visible);
         for (int first = 0; first < abi::tile_pixels; first += lanes<Real>)
             if (!common.store_hits(hits, first, packet(first)))
                 find(first, packet(first));
@@ -141,7 +142,7 @@ inline void closest_tile(const abi::TileJob<Real>& job, abi::TileHits<Real>& hit
         auto& bundle = *take_bundle<F, Real>(arena);
         gather_camera<F>(job, bundle);
         closest_of_bundle<F>(scene, visible, bundle);
-        settle_camera_bundle<F>(scene, bundle);
+        correct_camera_bundle<F>(scene, bundle);
         for (int first = 0; first < abi::tile_pixels; first += lanes<Real>)
             store_tile_hits<F>(hits, first, scene, load_rays(bundle, first),
                                load_hits(bundle, first));

@@ -4,12 +4,12 @@
 #include "kernels/lists/closest.hpp"
 #include "kernels/stream/ray_chunks.hpp"
 
-// All hits of rays from outside.
+// All hits of rays from the caller.
 namespace packtrace::PACKTRACE_ISA {
 namespace {
 
-/// The precision that all hits are found in: with Features::exact in double, as each of them
-/// counts.
+/// The precision in which all hits are searched for: with Features::exact double, as every single
+/// hit matters.
 template <abi::Features F, class Real>
 using SearchReal = std::conditional_t<F.exact, double, Real>;
 
@@ -22,7 +22,7 @@ inline const abi::GeometryView<SearchReal<F, Real>>& searched(const abi::SceneVi
         return scene;
 }
 
-/// Fills a bundle with the rays of a stream from `begin`.
+/// Fills a bundle with the rays of a stream from `begin` on.
 template <class Search, class Real>
 inline void gather_all(const abi::RaysView<Real>& view, int begin, RayBundle<Search>& bundle)
 {
@@ -49,7 +49,7 @@ inline void gather_all(const abi::RaysView<Real>& view, int begin, RayBundle<Sea
     end_bundle(bundle, count);
 }
 
-/// Hands the crossings of one surface to the sink.
+/// Passes the hits of one surface to the sink.
 template <class Search, class Real>
 [[gnu::noinline]] void report_hits(const abi::SceneView<Real>& scene,
                                    const RayBundle<Search>& bundle, int begin, int first,
@@ -102,8 +102,8 @@ inline void all_hits(const abi::SceneView<Real>& scene, const abi::RaysView<Real
                         report(first, bits(valid), t, surface);
                     });
         if (!geometry.tree.empty())
-            visit_crossings_in_tree<abi::tree_features(search)>(geometry.tree, bundle,
-                                                                CrossingVisitor<Search>(report));
+            visit_crossings_in_bvh<abi::tree_features(search)>(geometry.tree, bundle,
+                                                               CrossingVisitor<Search>(report));
     }
 }
 

@@ -7,12 +7,11 @@
 
 #include <limits>
 
-// The closest hits of rays from outside, as their callers want them.
+// Writes the closest hits of rays from the caller into the caller's arrays.
 namespace packtrace::PACKTRACE_ISA {
 namespace {
 
-/// Object numbers of the lanes of `active`; the others keep what they have or, where every surface
-/// is an object of its own, all.
+/// The object numbers of the lanes of `active`. The other lanes keep their surface numbers.
 template <class Real>
 inline vint<Real> objects_of(const abi::SceneView<Real>& scene, const vint<Real>& surface,
                              std::uint32_t active)
@@ -28,7 +27,7 @@ inline vint<Real> objects_of(const abi::SceneView<Real>& scene, const vint<Real>
     return load(number);
 }
 
-/// What rays that hit nothing have for a point and a normal.
+/// The point and normal of rays that hit nothing.
 template <class Real>
 inline Vec3v<Real> nowhere()
 {
@@ -42,7 +41,8 @@ inline Vec3v<Real> no_normal()
     return {zero, zero, zero};
 }
 
-/// Hands out points with their normals, of which the scene moves starts off if there are `any`.
+/// Writes points and normals, and points offset to either side of the surface, where the scene asks
+/// for offsets and `any` ray has a hit.
 template <class Real>
 inline void store_points(const abi::SceneView<Real>& scene, const Vec3v<Real>& point,
                          const Vec3v<Real>& normal, bool any, const abi::HitsView<Real>& hits,
@@ -58,8 +58,8 @@ inline void store_points(const abi::SceneView<Real>& scene, const Vec3v<Real>& p
     store_some3(hits.point, at, point, live);
 }
 
-/// Hands out t and places of what a packet of rays, of which `live` are left, hit. In a function of
-/// its own, as few callers ask for places.
+/// Writes t, points and normals of a packet of which `live` rays are left. It is not inlined, as
+/// few callers ask for points.
 template <abi::Features F, class Real>
 [[gnu::noinline]] void store_places(const abi::SceneView<Real>& scene, const RayPacket<Real>& rays,
                                     const HitPacket<Real>& hit, const StartPacket<Real>& start,
@@ -80,7 +80,7 @@ template <abi::Features F, class Real>
     store_points(scene, places.point, places.normal, found != 0, hits, at, live);
 }
 
-/// Hands out what a packet of rays hit that all meet one surface or none.
+/// Writes the hits of a packet whose rays all hit the same surface or nothing.
 inline void store_common_hits(const abi::SceneView<float>& scene, const CommonHit& hit,
                               const vreal<float>& t_max, const abi::HitsView<float>& hits, int at,
                               int live)
@@ -102,7 +102,7 @@ inline void store_common_hits(const abi::SceneView<float>& scene, const CommonHi
                         select(found, hit.outward, no_normal<float>()), hits_any, hits, at, live);
 }
 
-/// Where the closest hits of a stream go.
+/// Writes the closest hits of a stream.
 template <abi::Features F, class Real>
 class HitWriter {
 public:
@@ -111,13 +111,13 @@ public:
     {
     }
 
-    /// Whether points and normals are asked for, besides t.
+    /// Whether the caller asks for points and normals, not only for t.
     [[nodiscard]] bool asks_for_places() const
     {
         return hits_.normal[0] != nullptr;
     }
 
-    /// What a packet of rays, of which `live` are left, hit: to `at` and after.
+    /// Writes the hits of a packet, of which `live` rays are left, from index `at` on.
     void store_hits(const RayPacket<Real>& rays, const HitPacket<Real>& hit,
                     const StartPacket<Real>& start, const vreal<Real>& t_max, int at, int live)
     {
@@ -134,13 +134,13 @@ public:
             store_t(rays, hit, start, select(missed, t_max, hit.t), found, at, live);
     }
 
-    /// The same of hits on one surface.
+    /// The same for hits that are all on one surface.
     void store_hits(const CommonHit& hit, const vreal<float>& t_max, int at, int live)
     {
         store_common_hits(scene_, hit, t_max, hits_, at, live);
     }
 
-    /// What is left to be done at the end.
+    /// Refines and writes the hits that still wait. Call it at the end.
     void finish()
     {
         if constexpr (F.exact)
@@ -148,7 +148,7 @@ public:
     }
 
 private:
-    /// `t` is what the search found, and where misses end.
+    /// `t` is the t that the search found, and t_max for misses.
     void store_t(const RayPacket<Real>& rays, const HitPacket<Real>& hit,
                  const StartPacket<Real>& start, const vreal<Real>& t, std::uint32_t found, int at,
                  int live)

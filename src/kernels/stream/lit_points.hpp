@@ -3,19 +3,19 @@
 #include "kernels/shade/shadow.hpp"
 #include "kernels/stream/occluded_rays.hpp"
 
-// Which of a caller's points a light reaches: the shadow rays of frames, for points from outside.
+// Which of the caller's points a light reaches, by the same shadow rays as in frames.
 namespace packtrace::PACKTRACE_ISA {
 namespace {
 
-/// What is prepared for one call.
+/// The data prepared for one call.
 template <abi::Features F, class Real>
 struct LitWork {
     FromPoint<F, Real> from_light;
-    FromAnywhere<F, Real> from_points;  ///< in its place for light from a direction
+    FromAnywhere<F, Real> from_points;  ///< used instead for light from a direction
     RayBundle<Real>* bundle = nullptr;
     std::size_t bytes = 0;
 
-    /// With no `scratch`, only `bytes` is of use.
+    /// With a null `scratch`, only `bytes` is valid.
     LitWork(void* scratch, const abi::SceneView<Real>& casters)
     {
         Arena arena(scratch);
@@ -39,12 +39,12 @@ inline Vec3v<Real> outward_at(const abi::ShapesView& shapes, const abi::SurfaceI
         return surface_normal<Real>(shapes, index, point, to_light);
 }
 
-/// A packet of points, and what is known of the surfaces they are on.
+/// A packet of points, and their surfaces.
 template <class Real>
 struct GivenPoints {
     SurfacePacket<Real> surface;
     LightPacket<Real> light;
-    std::uint32_t numbers;  ///< lanes in which nothing is NaN
+    std::uint32_t numbers;  ///< lanes in which no coordinate is NaN
     std::uint32_t on_any;   ///< lanes on a surface
 };
 
@@ -58,7 +58,7 @@ inline GivenPoints<Real> points_at(const abi::SceneView<Real>& scene,
     GivenPoints<Real> points{};
     SurfacePacket<Real>& surface = points.surface;
     surface.point = load_some3(view.point, first, count);
-    surface.normal = surface.lift = {zero, zero, zero};
+    surface.normal = surface.offset = {zero, zero, zero};
     surface.number = no_surface<Real>();
     surface.turned = 0;
     const Vec3v<Real>& at = surface.point;
@@ -81,12 +81,12 @@ inline GivenPoints<Real> points_at(const abi::SceneView<Real>& scene,
             surface.normal =
                 select(from_bits<Real>(bits(same) & points.on_any), outward, surface.normal);
         });
-    surface.lift = origin_offset<Real>(scene.rules.start_error, at, surface.normal);
+    surface.offset = origin_offset<Real>(scene.rules.start_error, at, surface.normal);
     return points;
 }
 
-/// Fills a bundle with the rays between the points from `begin` on and a light, but for those that
-/// their own body keeps from it.
+/// Fills a bundle with the shadow rays between the points from `begin` on and a light. Points that
+/// their own object occludes are not active.
 template <abi::Features F, class Real>
 inline void gather_ways(const abi::SceneView<Real>& scene, const abi::PointsView<Real>& view,
                         const abi::LightRecord<Real>& light, int begin, int count,
@@ -120,20 +120,20 @@ inline void find_from_points(LitWork<F, Real>& work, const abi::SceneView<Real>&
     }
 }
 
-/// Ends the rays of a bundle that anything keeps from a light.
+/// Ends the rays of a bundle that any object occludes.
 template <abi::Features F, class Objects, class Real>
 [[gnu::noinline]] void block_ways(const abi::SceneView<Real>& casters, const Objects& objects,
-                                  RayBundle<Real>& bundle, bool closed,
+                                  RayBundle<Real>& bundle, RayInterval interval,
                                   const abi::LightBuffer* buffer)
 {
-    visit_occluders_of_bundle<F>(casters, objects, bundle, closed, Occluder(), buffer);
+    visit_occluders_of_bundle<F>(casters, objects, bundle, interval, Occluder(), buffer);
     if constexpr (F.exact)
-        settle_occluded<F>(casters, bundle, closed);
+        decide_occluded<F>(casters, bundle, interval);
 }
 
-/// mask[i] becomes 1 where nothing that casts a shadow is between point i and a light. Points on
-/// surfaces are looked for as frames have it: their own body by its equation, and others a little
-/// off it.
+/// Sets mask[i] to 1 if no object that casts shadows is between point i and a light, else to 0.
+/// Points on surfaces are handled as in frames: their own object by the other root of its equation,
+/// other objects by rays with an origin offset.
 template <abi::Features F, class Real>
 inline void lit_points(const abi::SceneView<Real>& scene, const abi::PointsView<Real>& view,
                        const abi::LightRecord<Real>& light, const abi::LightBuffer* buffer,
@@ -142,7 +142,7 @@ inline void lit_points(const abi::SceneView<Real>& scene, const abi::PointsView<
     const abi::SceneView<Real>& casters = casters_of(scene);
     LitWork<F, Real> work(scratch, casters);
     RayBundle<Real>& bundle = *work.bundle;
-    const bool closed = has_closed_reach(scene, light);
+    const RayInterval interval = shadow_interval(scene, light);
     if (light.sends_rays) {
         find_from_point<F>(work.from_light, light.vector, casters);
         sort_by_distance<F>(work.from_light);
@@ -151,10 +151,10 @@ inline void lit_points(const abi::SceneView<Real>& scene, const abi::PointsView<
         const int count = view.count - begin < bundle_rays ? view.count - begin : bundle_rays;
         gather_ways<F>(scene, view, light, begin, count, bundle);
         if (light.sends_rays) {
-            block_ways<F>(casters, work.from_light, bundle, closed, buffer);
+            block_ways<F>(casters, work.from_light, bundle, interval, buffer);
         } else {
             find_from_points(work, casters, count);
-            block_ways<F>(casters, work.from_points, bundle, closed, buffer);
+            block_ways<F>(casters, work.from_points, bundle, interval, buffer);
         }
         for (int first = 0; first < count; first += lanes<Real>)
             store_mask<Real>(mask + begin + first, active_lanes(bundle, first), count - first);

@@ -3,12 +3,14 @@
 #include "kernels/shade/shade_context.hpp"
 #include "kernels/stream/probe.hpp"
 
-// Rays of too little weight to be traced, and what their pixels may lack without them.
+// Skips rays whose weight is too small, and records an upper bound of the light that their pixels
+// lack.
 namespace packtrace::PACKTRACE_ISA {
 namespace {
 
-/// Adds to each ray's pixel the most that the ray could have brought in any channel, rounded up to
-/// whole abi::lack_unit: sums of whole numbers do not depend on their order.
+/// Adds to each ray's pixel an upper bound of the light that the ray could have returned in any
+/// channel, rounded up to whole units of abi::lack_unit: sums of whole numbers do not depend on
+/// their order.
 template <class Real>
 [[gnu::noinline]] void record_cut(const abi::MostLight& most_light, double* lacks,
                                   const PathPacket<Real>& path, const Vec3v<Real>& weight,
@@ -28,8 +30,8 @@ template <class Real>
     }
 }
 
-/// The lanes of `active` whose child, of `share` of the light of these hits, is traced: its weight
-/// is at least SceneView::min_weight in some channel.
+/// The lanes of `active` whose child ray is traced: its weight, `share` times that of the ray, is
+/// at least RayRules::min_weight in some channel.
 template <abi::Features F, class Real>
 inline std::uint32_t heavy_enough(const ShadeContext<F, Real>& context,
                                   const PathPacket<Real>& path, const Vec3v<Real>& share,
@@ -49,7 +51,7 @@ inline std::uint32_t heavy_enough(const ShadeContext<F, Real>& context,
     return traced;
 }
 
-/// The largest of what some pixels may lack.
+/// The largest amount that any pixel lacks.
 inline double most_lacking(const double* lacks, int pixels)
 {
     double most = 0.0;

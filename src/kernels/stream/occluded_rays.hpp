@@ -4,7 +4,7 @@
 #include "kernels/retrace/retrace_occluded.hpp"
 #include "kernels/stream/ray_chunks.hpp"
 
-// Whether anything is in the way of rays from outside.
+// Whether rays from the caller are occluded.
 namespace packtrace::PACKTRACE_ISA {
 namespace {
 
@@ -16,7 +16,8 @@ template <abi::Features F, class Objects, class Real>
 {
     for (int first = begin; first < end; first += lanes<Real>) {
         const StreamPacket<Real> packet(view, first);
-        // Of what may be a NaN in a ray the end alone would not end all comparisons.
+        // A NaN anywhere else in a ray makes all its comparisons fail; a NaN as its end alone would
+        // not.
         const std::uint32_t wanted =
             first_lanes<Real>(packet.count) & bits(packet.t_max == packet.t_max);
         const OwnSurface<vint<Real>> own{no_surface<Real>()};
@@ -26,27 +27,28 @@ template <abi::Features F, class Objects, class Real>
                 occluded<F, Order::by_distance>(packet.t_max, objects, packet.rays, own, wanted);
             blocked = occlusion.blocked;
             if (occlusion.unsure != 0)
-                blocked |= retrace_occluded<F.probe>(*scene.wide, packet.rays, own.surface,
-                                                     packet.t_max, false, occlusion.unsure);
+                blocked |=
+                    retrace_occluded<F.probe>(*scene.wide, packet.rays, own.surface, packet.t_max,
+                                              RayInterval::open, occlusion.unsure);
         } else {
-            blocked =
-                occluded<F>(RayEnd<Real>{packet.t_max, false}, objects, packet.rays, own, wanted);
+            blocked = occluded<F>(RayEnd<Real>{packet.t_max, RayInterval::open}, objects,
+                                  packet.rays, own, wanted);
         }
         store_mask<Real>(mask + first, blocked & wanted, packet.count);
     }
 }
 
-/// Blocks the rays of a bundle by what is in their way in double, where they are unsure. They end
-/// at the bundle's `t`, which is `closed` or not (RayEnd).
+/// Decides the unsure rays of a bundle in double, and ends those that are occluded. Rays end at the
+/// bundle's `t`; their `interval` is open or closed (RayEnd).
 template <abi::Features F>
-[[gnu::noinline]] void settle_occluded(const abi::SceneView<float>& scene, RayBundle<float>& bundle,
-                                       bool closed)
+[[gnu::noinline]] void decide_occluded(const abi::SceneView<float>& scene, RayBundle<float>& bundle,
+                                       RayInterval interval)
 {
     WideBundle wide;
     add_unsure_segments(wide, bundle, [](int, std::uint32_t) {});
     if (wide.count == 0)
         return;
-    block_wide<F.probe>(*scene.wide, wide, closed, Occluders::any, [&](int ray, std::int32_t) {
+    block_wide<F.probe>(*scene.wide, wide, interval, Occluders::any, [&](int ray, std::int32_t) {
         const int first = ray / lanes<float> * lanes<float>;
         finish_lanes(bundle, first, 1u << (ray - first));
         return true;
@@ -54,10 +56,10 @@ template <abi::Features F>
 }
 
 template <abi::Features F, class Real>
-[[gnu::noinline]] void occluded_chunk_in_tree(const abi::SceneView<Real>& scene,
-                                              const StreamWork<F, Real>& work,
-                                              const abi::RaysView<Real>& view, int begin, int end,
-                                              std::uint8_t* mask)
+[[gnu::noinline]] void occluded_chunk_in_bvh(const abi::SceneView<Real>& scene,
+                                             const StreamWork<F, Real>& work,
+                                             const abi::RaysView<Real>& view, int begin, int end,
+                                             std::uint8_t* mask)
 {
     RayBundle<Real>& bundle = *work.bundle;
     const int count = end - begin;
@@ -70,9 +72,9 @@ template <abi::Features F, class Real>
     std::uint16_t wanted[bundle_cells];
     for (int cell = 0; cell < bundle_cells; ++cell)
         wanted[cell] = bundle.active[cell];
-    visit_occluders_of_bundle<F>(scene, work.nearby, bundle, false, Occluder());
+    visit_occluders_of_bundle<F>(scene, work.nearby, bundle, RayInterval::open, Occluder());
     if constexpr (F.exact)
-        settle_occluded<F>(scene, bundle, false);
+        decide_occluded<F>(scene, bundle, RayInterval::open);
     for (int first = 0; first < count; first += lanes<Real>) {
         const std::uint32_t before = wanted[first / cell_rays] >> first % cell_rays;
         store_mask<Real>(mask + begin + first, before & ~active_lanes(bundle, first),
@@ -87,7 +89,7 @@ inline void occluded_rays(const abi::SceneView<Real>& scene, const abi::RaysView
     StreamWork<F, Real> work(scratch, scene);
     for_each_chunk(work, scene, view, [&](int begin, int end) {
         if (!work.by_lists)
-            occluded_chunk_in_tree(scene, work, view, begin, end, mask);
+            occluded_chunk_in_bvh(scene, work, view, begin, end, mask);
         else if (work.shares_origin)
             occluded_chunk_in_lists<F>(scene, work.from_point, view, begin, end, mask);
         else

@@ -2,28 +2,28 @@
 
 #include "kernels/precision/refine.hpp"
 
-// Hits of packets in which few rays hit anything: they wait until there is a packet of them, and
-// are refined together. What refining finds hangs on a ray and its surface alone, so that it does
-// not matter who comes along.
+// Hits of packets in which few rays hit anything. They wait until there are enough for a packet,
+// and are refined together. A refined hit depends only on the ray and its surface, so it does not
+// matter which hits are refined together.
 namespace packtrace::PACKTRACE_ISA {
 namespace {
 
 template <abi::Features F, class Real>
 class PendingHits {
 public:
-    /// The t of a hit goes to where in `t` its ray stands.
+    /// `t` is the array of the stream's t; a refined t is written at its ray's index.
     PendingHits(const abi::ShapesView& shapes, Real* t) : shapes_(shapes), t_(t)
     {
     }
 
-    /// Whether it pays that hits in these lanes of a packet wait.
+    /// Whether it is faster to let the hits in these lanes wait.
     static bool is_worth_it(std::uint32_t found)
     {
         return __builtin_popcount(found) <= lanes<Real> * 3 / 4;
     }
 
-    /// Hits in the lanes `found` of a packet, which stands at `at`, on surfaces that their rays
-    /// don't start on.
+    /// Adds the hits in the lanes `found` of the packet at index `at`. Their surfaces are not those
+    /// that the rays start on.
     void add(const RayPacket<Real>& rays, const HitPacket<Real>& hit, std::uint32_t found, int at)
     {
         if (found == 0)
@@ -45,7 +45,7 @@ public:
             refine_last(lanes<Real>);
     }
 
-    /// Refines what is left.
+    /// Refines and writes the hits that still wait.
     void finish()
     {
         if (count_ != 0)
@@ -71,20 +71,20 @@ private:
             t_[at_[count_ + i]] = t[i];
     }
 
-    /// Where the search found them matters to quadrics alone.
+    /// Only quadrics need the t that the search found.
     static constexpr bool asks_for_t = F.quadrics;
-    /// What is left of a packet, and a packet more.
-    static constexpr std::size_t room = 2 * lanes<Real>;
+    /// A packet of added hits, and fewer than a packet that wait.
+    static constexpr std::size_t capacity = 2 * lanes<Real>;
 
     const abi::ShapesView& shapes_;
     Real* t_;
     int count_ = 0;
-    alignas(64) Real org_[3][room];
-    alignas(64) Real dir_[3][room];
-    alignas(64) Real t_min_[room];
-    alignas(64) Real found_[room];
-    alignas(64) lane_int<Real> surface_[room];
-    alignas(64) lane_int<Real> at_[room];
+    alignas(64) Real org_[3][capacity];
+    alignas(64) Real dir_[3][capacity];
+    alignas(64) Real t_min_[capacity];
+    alignas(64) Real found_[capacity];
+    alignas(64) lane_int<Real> surface_[capacity];
+    alignas(64) lane_int<Real> at_[capacity];
 };
 
 }  // namespace

@@ -6,19 +6,19 @@
 #include <cstddef>
 #include <utility>
 
-// The pixels of a tile while it is rendered: r, g, b and one unused element each, along the
-// tile's Z-order curve, so that a pixel is one load and one store. They are one array, which
-// packets of pixels may be moved through.
+// The pixels of a tile while it is rendered: r, g, b and one unused element each, along the tile's
+// Z-order curve, so that a pixel is one load and one store. They are one array, so that whole
+// packets of pixels can be moved.
 namespace packtrace::PACKTRACE_ISA {
 namespace {
 
 constexpr int pixel_elements = 4;
 
-/// Of a tile.
+/// Elements of a tile.
 constexpr int tile_elements = pixel_elements * abi::tile_pixels;
 
-/// `Count` reals moved at once; a vector extension of both compilers. They are copied from and to
-/// arrays as bytes, which has no alignment.
+/// `Count` reals that are moved at once: a vector extension of GCC and Clang. They are copied to
+/// and from arrays as bytes, which need no alignment.
 template <class Real, int Count>
 using Reals [[gnu::vector_size(Count * sizeof(Real))]] = Real;
 
@@ -36,11 +36,11 @@ inline void store_pixels(double* to, vreal<double> r, vreal<double> g, vreal<dou
     }
 }
 
-/// A packet's first light in a pixel replaces the background there; later light is added.
+/// How light is written: the first light in a pixel replaces the background, later light is added.
 enum class PixelWrite { set, add };
 
-/// Puts a packet of colours into its pixels in lane order. `number` may name a pixel twice
-/// when adding.
+/// Writes a packet of colours to its pixels, in lane order. When adding, `number` may contain a
+/// pixel twice.
 template <class Real>
 inline void write_colors(PixelWrite write, Real* pixels, const vint<Real>& number,
                          const Vec3v<Real>& color, std::uint32_t active)
@@ -77,28 +77,28 @@ inline void write_colors(PixelWrite write, Real* pixels, const vint<Real>& numbe
     }
 }
 
-/// Fills a tile.
+/// Fills all pixels of a tile with one colour.
 template <class Real>
 inline void fill_pixels(Real* pixels, const Real (&color)[3])
 {
-    constexpr int repeats = pixel_elements < lanes<Real> ? lanes<Real> : pixel_elements;
-    alignas(64) Real pattern[static_cast<std::size_t>(repeats)];
+    constexpr int pattern_elements = pixel_elements < lanes<Real> ? lanes<Real> : pixel_elements;
+    alignas(64) Real pattern[static_cast<std::size_t>(pattern_elements)];
     const Reals<Real, pixel_elements> pixel{color[0], color[1], color[2], Real(0)};
-    for (int i = 0; i < repeats; i += pixel_elements)
+    for (int i = 0; i < pattern_elements; i += pixel_elements)
         __builtin_memcpy(pattern + i, &pixel, sizeof pixel);
     for (int i = 0; i < tile_elements; i += lanes<Real>)
-        store(pixels + i, load(pattern + i % repeats));
+        store(pixels + i, load(pattern + i % pattern_elements));
 }
 
-/// Every second bit position of `number` filled from its low bits.
+/// Spreads the low bits of `number` to every second bit.
 constexpr int spread_bits(int number)
 {
     return (number & 1) | ((number & 2) << 1) | ((number & 4) << 2) | ((number & 8) << 3);
 }
 
-/// The channels of two neighbours in a row, of which the number of the first is even: `Written`
-/// elements into `to`, 6 of the channels and up to two more that the next ones overwrite. (No
-/// vector of both is returned: it is wider than a register of SSE, and so has no fixed ABI.)
+/// Writes the channels of two neighbours in a row, the first with an even number, to `to`:
+/// `Written` elements, 6 channels and up to two more that the next pixels overwrite. It returns no
+/// vector of both pixels, because that is wider than an SSE register and has no fixed ABI.
 template <std::size_t Written, class Real>
 inline void write_two(Real* to, const Real* pixels)
 {
@@ -115,7 +115,7 @@ inline void write_one(Real* to, const Real* pixel)
         to[channel] = pixel[channel];
 }
 
-/// A whole row of a tile; `Pair` are all its pairs of pixels but the last.
+/// Writes a whole row of a tile; `Pair` are all pairs of pixels except the last.
 template <class Real, int... Pair>
 inline void write_pairs(Real* to, const Real* row, std::integer_sequence<int, Pair...>)
 {
@@ -125,7 +125,7 @@ inline void write_pairs(Real* to, const Real* row, std::integer_sequence<int, Pa
     write_two<6>(to + 6 * last, row + pixel_elements * spread_bits(2 * last));
 }
 
-/// One row of a tile into `to`, interleaved.
+/// Writes one row of a tile to `to`, interleaved.
 template <class Real>
 inline void write_row(Real* to, const Real* pixels, int row, int width)
 {

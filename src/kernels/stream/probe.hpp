@@ -4,16 +4,16 @@
 #include "kernels/geometry/packet.hpp"
 #include "kernels/stream/tile_memory.hpp"
 
-// Reports of single rays, for kernels with Features::probe; nothing of it is in the others.
+// Records single rays, in kernels with Features::probe; empty in the others.
 namespace packtrace::PACKTRACE_ISA {
 namespace {
 
-/// A hit's share of its pixel, and where that is.
+/// The weight and pixel of a hit's path.
 template <class Real>
 struct PathPacket {
     Vec3v<Real> weight;
     vint<Real> pixel;
-    vint<Real> id;  ///< abi::PathId; only kernels with a probe keep it
+    vint<Real> id;  ///< abi::PathId; only with a probe
 };
 
 template <class Real>
@@ -26,7 +26,7 @@ struct LaneIntegers {
     }
 };
 
-/// The rays of the probed pixel in a packet, or with `On` false no rays at all.
+/// The rays of the probed pixel in a packet; if `On` is false, no rays.
 template <bool On, class Real>
 struct PacketProbe {
     void light(int, std::uint32_t, std::uint32_t, const Vec3v<Real>&) const
@@ -46,9 +46,9 @@ struct PacketProbe {
 
 template <class Real>
 struct PacketProbe<true, Real> {
-    const abi::Probe<Real>* probe;  ///< null: there is no such pixel
+    const abi::Probe<Real>* probe;  ///< null: no pixel is probed
     const PathPacket<Real>& path;
-    std::uint32_t probed = 0;  ///< lanes of the pixel
+    std::uint32_t probed = 0;  ///< lanes of the probed pixel
 
     PacketProbe(const abi::Probe<Real>* probe_, const PathPacket<Real>& path_, std::uint32_t active)
         : probe(probe_), path(path_)
@@ -59,14 +59,14 @@ struct PacketProbe<true, Real> {
                 bits(int_equal(path.pixel, vint<Real>(static_cast<lane_int<Real>>(probe->pixel))));
     }
 
-    /// Calls `tell(lane, path)` for each of the rays.
-    template <class Tell>
-    void each(const Tell& tell) const
+    /// Calls `visit(lane, path)` for each of these rays.
+    template <class Visit>
+    void each(const Visit& visit) const
     {
         const LaneIntegers<Real> id(path.id);
         for (std::uint32_t rest = probed; rest != 0; rest &= rest - 1) {
             const int lane = __builtin_ctz(rest);
-            tell(lane, static_cast<abi::PathId>(id.value[lane]));
+            visit(lane, static_cast<abi::PathId>(id.value[lane]));
         }
     }
 
@@ -79,21 +79,21 @@ struct PacketProbe<true, Real> {
         const LaneVectors<Real> t({hit.t, hit.t, hit.t});
         const LaneIntegers<Real> surface(hit.surface);
         each([&](int lane, abi::PathId id) {
-            abi::ProbedRay<Real> told{};
-            told.path = id;
-            org.copy(lane, told.org);
-            dir.copy(lane, told.dir);
-            weight.copy(lane, told.weight);
-            told.t = t.axis[0][lane];
+            abi::ProbedRay<Real> event{};
+            event.path = id;
+            org.copy(lane, event.org);
+            dir.copy(lane, event.dir);
+            weight.copy(lane, event.weight);
+            event.t = t.axis[0][lane];
             const auto number = surface.value[lane];
-            told.object = number < 0 ? -1 : scene.materials.of_surface[number].object;
+            event.object = number < 0 ? -1 : scene.materials.of_surface[number].object;
             if (number < 0)
-                missed.copy(lane, told.seen);
-            probe->ray(probe->context, told);
+                missed.copy(lane, event.seen);
+            probe->ray(probe->context, event);
         });
     }
 
-    /// A light whose share is all or, outside the lanes of `lit`, nothing.
+    /// Records a light whose share is 1 in the lanes of `lit`, else 0.
     void light(int number, std::uint32_t can_add, std::uint32_t lit, const Vec3v<Real>& color) const
     {
         const vreal<Real> share =
@@ -108,14 +108,14 @@ struct PacketProbe<true, Real> {
             return;
         const LaneVectors<Real> shares(share), colors(color);
         each([&](int lane, abi::PathId id) {
-            abi::ProbedLight<Real> told{};
-            told.path = id;
-            told.light = number;
-            told.can_add = static_cast<std::int32_t>((can_add >> lane) & 1u);
-            if (told.can_add != 0)
-                shares.copy(lane, told.share);
-            colors.copy(lane, told.color);
-            probe->light(probe->context, told);
+            abi::ProbedLight<Real> event{};
+            event.path = id;
+            event.light = number;
+            event.can_add = static_cast<std::int32_t>((can_add >> lane) & 1u);
+            if (event.can_add != 0)
+                shares.copy(lane, event.share);
+            colors.copy(lane, event.color);
+            probe->light(probe->context, event);
         });
     }
 
@@ -125,7 +125,7 @@ struct PacketProbe<true, Real> {
         last_hit(surface, local, {zero, zero, zero}, {zero, zero, zero});
     }
 
-    /// A hit at the depth limit, which gives `limit` times `share` in place of children.
+    /// Records a hit at the depth limit, which adds `limit` times `share` instead of child rays.
     void last_hit(const SurfacePacket<Real>& surface, const Vec3v<Real>& local,
                   const Vec3v<Real>& share, const Vec3v<Real>& limit) const
     {
@@ -134,13 +134,13 @@ struct PacketProbe<true, Real> {
         const LaneVectors<Real> points(surface.point), normals(surface.normal), locals(local),
             limits(share * limit);
         each([&](int lane, abi::PathId id) {
-            abi::ProbedHit<Real> told{};
-            told.path = id;
-            points.copy(lane, told.point);
-            normals.copy(lane, told.normal);
-            locals.copy(lane, told.local);
-            limits.copy(lane, told.at_limit);
-            probe->hit(probe->context, told);
+            abi::ProbedHit<Real> event{};
+            event.path = id;
+            points.copy(lane, event.point);
+            normals.copy(lane, event.normal);
+            locals.copy(lane, event.local);
+            limits.copy(lane, event.at_limit);
+            probe->hit(probe->context, event);
         });
     }
 };

@@ -8,7 +8,7 @@
 #include "kernels/simd/stream_values.hpp"
 #include "kernels/stream/workspace.hpp"
 
-// Rays from outside in chunks, for each of which the objects are prepared.
+// Rays from the caller, in chunks. For each chunk the objects are prepared.
 namespace packtrace::PACKTRACE_ISA {
 namespace {
 
@@ -16,7 +16,7 @@ template <class Real>
 struct StreamPacket {
     RayPacket<Real> rays;
     vreal<Real> t_max;
-    int count;  ///< rays from here on, perhaps more than a packet
+    int count;  ///< number of rays from here on; may be more than a packet
 
     StreamPacket(const abi::RaysView<Real>& view, int first) : count(view.count - first)
     {
@@ -28,7 +28,7 @@ struct StreamPacket {
     }
 };
 
-/// Lanes in which nothing is NaN.
+/// Lanes in which no value is NaN.
 template <class Real>
 inline std::uint32_t numbers(const StreamPacket<Real>& packet)
 {
@@ -39,7 +39,7 @@ inline std::uint32_t numbers(const StreamPacket<Real>& packet)
            is_number(rays.t_min) & is_number(packet.t_max);
 }
 
-/// Where a packet of a stream starts, if its caller says so.
+/// Where the rays of a packet start, if the caller says so.
 template <class Real>
 inline StartPacket<Real> start_of(const abi::SceneView<Real>& scene,
                                   const abi::RaysView<Real>& view, int first,
@@ -60,14 +60,15 @@ inline StartPacket<Real> start_of(const abi::SceneView<Real>& scene,
         second_hit<Real>(scene.shapes, number, point, rays.dir, rays.t_min, ~bits(inner), active)};
 }
 
-/// After packets without a common hit more and more are not asked for one, so that rays without a
-/// common way cost next to nothing; likewise chunks for which nothing can be picked.
+/// Decides how many tries to skip after failed ones: after each packet without a common hit more
+/// packets are not tried, so that rays without common hits cost almost nothing. The same for chunks
+/// for which nothing could be picked.
 struct TryPause {
     static constexpr int longest = 256;
     int length = 1;
     int left = 0;
 
-    /// Whether the next packet is to be asked.
+    /// Whether the next packet is to be tried.
     bool is_over()
     {
         if (left == 0)
@@ -75,14 +76,19 @@ struct TryPause {
         --left;
         return false;
     }
-    void record(bool found)
+    void record_success()
     {
-        left = found ? 0 : length - 1;
-        length = found ? 1 : length < longest ? 2 * length : longest;
+        left = 0;
+        length = 1;
+    }
+    void record_failure()
+    {
+        left = length - 1;
+        length = length < longest ? 2 * length : longest;
     }
 };
 
-/// Whether a packet's rays run nearly the same way: within 25 degrees of the first.
+/// Whether the rays of a packet run in similar directions: within 25 degrees of the first.
 template <class Real>
 inline bool run_together(const abi::RaysView<Real>& view, int begin)
 {
@@ -93,21 +99,21 @@ inline bool run_together(const abi::RaysView<Real>& view, int begin)
     return all(along * abs(along) > vreal<Real>(Real(0.82)) * dot(dir, dir) * dot(axis, axis));
 }
 
-/// What is prepared of the lists for one call.
+/// The lists prepared for one call.
 template <abi::Features F, class Real>
 struct StreamWork {
     FromAnywhere<F, Real> nearby;
-    FromPoint<F, Real> from_point;  ///< in place of `nearby` for rays from one point
-    bool shares_origin = false;     ///< the chunk's rays are such rays
-    bool by_lists = false;          ///< the chunk's rays may meet nothing that is not in lists
-    TryPause picking;               ///< of chunks for which nothing could be picked
-    CommonObjects common;           ///< in exact mode, without a hierarchy
-    bool wants_common = false;      ///< closest hits are asked for, without a hierarchy
-    TryPause pause;                 ///< of packets without a common hit
+    FromPoint<F, Real> from_point;  ///< used instead of `nearby` for rays from one point
+    bool shares_origin = false;     ///< the chunk's rays start at one point
+    bool by_lists = false;          ///< the chunk's rays can hit no object outside the lists
+    TryPause picking;               ///< skips chunks after failed tries to pick
+    CommonObjects common;           ///< in exact mode without a BVH
+    bool wants_common = false;      ///< closest hits are wanted, without a BVH
+    TryPause pause;                 ///< skips packets after those without a common hit
     RayBundle<Real>* bundle = nullptr;
     std::size_t bytes = 0;
 
-    /// With no `scratch`, only `bytes` is of use.
+    /// With a null `scratch`, only `bytes` is valid.
     StreamWork(void* scratch, const abi::SceneView<Real>& scene)
     {
         Arena arena(scratch);
@@ -122,8 +128,8 @@ struct StreamWork {
         bytes = arena.used();
     }
 
-    /// Whether packets of a chunk are asked for common hits: rays that run apart have none, and few
-    /// are not worth what is prepared.
+    /// Whether to search packets of a chunk for common hits. Rays in different directions have
+    /// none, and few rays are not worth the preparation.
     bool looks_for_common(const abi::RaysView<Real>& view, int begin, int count)
     {
         common.are_all = false;
@@ -133,11 +139,11 @@ struct StreamWork {
     static constexpr int fewest_in_common = 256;
 };
 
-/// Fewer rays are not worth what is computed once for a shared origin.
+/// With fewer rays, preparing objects for a shared origin does not pay.
 inline constexpr int fewest_sharing = 64;
 
-/// Whether a chunk's rays all start at the same point, as those from an eye or a light do. Zeros of
-/// both signs are not the same, so that results have the same bits either way.
+/// Whether all rays of a chunk start at the same point, as rays from a camera or a light do. Zeros
+/// of different sign are not the same, so that results have the same bits either way.
 template <class Real>
 inline bool start_together(const abi::RaysView<Real>& view, int begin, int count)
 {
@@ -150,7 +156,7 @@ inline bool start_together(const abi::RaysView<Real>& view, int begin, int count
     const auto differs = [](const vreal<Real>& a, const vreal<Real>& b) {
         return as_int(a) ^ as_int(b);
     };
-    // The last packet may overlap the one before.
+    // The last packet may overlap the one before it.
     for (int first = 0; first < count;) {
         const int at = first + lanes<Real> <= count ? first : count - lanes<Real>;
         const vint<Real> any_differs = differs(load(x + at), one.x) | differs(load(y + at), one.y) |
@@ -162,8 +168,8 @@ inline bool start_together(const abi::RaysView<Real>& view, int begin, int count
     return true;
 }
 
-/// Where the rays of a chunk start, and the directions that they run in. A cone that is not bounded
-/// where that can't be told for sure.
+/// The box of a chunk's origins, and the cone of its directions. The cone is not bounded if that
+/// cannot be decided.
 struct ChunkBounds {
     Box<float> box;
     Cone<float> cone;
@@ -182,7 +188,7 @@ inline ChunkBounds bounds_of_chunk(const abi::RaysView<float>& view, int begin, 
         rays.t_min = load_some(view.t_min + begin + ray, count - ray);
         certain = certain & certifiable(rays) & (rays.t_min >= vreal<float>(0.0f));
         const vreal<float> t_max = load_some(view.t_max + begin + ray, count - ray);
-        // Rays with a NaN as their end go nowhere.
+        // Rays with a NaN as their end hit nothing.
         reach2 = max(reach2, rays.dir2 * t_max * t_max);
     }
     ChunkBounds bounds;
@@ -198,11 +204,11 @@ inline ChunkBounds bounds_of_chunk(const abi::RaysView<float>& view, int begin, 
     return bounds;
 }
 
-/// Fewer rays are not worth what is picked for them.
+/// With fewer rays, picking does not pay.
 inline constexpr int fewest_picking = 64;
 
-/// Picks from the hierarchy what a chunk's rays may meet, where that is worth it and little. False
-/// where they have to go through it.
+/// Puts the objects that a chunk's rays may hit into lists, including those of the BVH, if that is
+/// likely to pay. Returns false if the rays have to traverse the BVH.
 template <abi::Features F>
 inline bool pick_for_chunk(StreamWork<F, float>& work, const abi::SceneView<float>& scene,
                            const abi::RaysView<float>& view, int begin, int count)
@@ -210,7 +216,7 @@ inline bool pick_for_chunk(StreamWork<F, float>& work, const abi::SceneView<floa
     if (count < fewest_picking || !work.picking.is_over() || !run_together(view, begin))
         return false;
     const ChunkBounds bounds = bounds_of_chunk(view, begin, count);
-    work.picking.record(false);
+    work.picking.record_failure();
     if (!bounds.cone.bounded)
         return false;
     work.shares_origin = view.start_surface == nullptr && start_together(view, begin, count);
@@ -223,7 +229,7 @@ inline bool pick_for_chunk(StreamWork<F, float>& work, const abi::SceneView<floa
         work.by_lists = picks_all<F>(work.nearby, bounds.box, bounds.cone, scene);
     }
     if (work.by_lists)
-        work.picking.record(true);
+        work.picking.record_success();
     return work.by_lists;
 }
 
@@ -248,7 +254,7 @@ inline void find_nearby_of(StreamWork<F, Real>& work, const abi::SceneView<Real>
         return;
     }
     if constexpr (F.exact) {
-        // Where all objects are in the hierarchy, that has bounds of its own.
+        // If all objects are in the BVH, it has error bounds of its own.
         if (!scene.tree.empty() && !has_objects<F>(scene))
             return;
         PacketBox<float> origins;
@@ -263,10 +269,10 @@ inline void find_nearby_of(StreamWork<F, Real>& work, const abi::SceneView<Real>
     }
 }
 
-/// Rays that the lists are prepared for together, where there is no hierarchy to go through.
+/// The number of rays for which lists are prepared together, without a BVH.
 inline constexpr int list_chunk = 16 * bundle_rays;
 
-/// Calls `visit(begin, end)` for the chunks of a stream, for which the lists are prepared.
+/// Prepares the lists for each chunk of a stream, and calls `visit(begin, end)` for it.
 template <abi::Features F, class Real, class Visit>
 inline void for_each_chunk(StreamWork<F, Real>& work, const abi::SceneView<Real>& scene,
                            const abi::RaysView<Real>& view, const Visit& visit)

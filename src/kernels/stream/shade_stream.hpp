@@ -4,8 +4,8 @@
 #include "kernels/stream/min_weight.hpp"
 #include "kernels/stream/spawn.hpp"
 
-// Shading of a tile's hit points: light by light into the pixels, children into the next
-// streams.
+// Shades the hits of a chunk: adds the light of each source to the pixels, and appends child rays
+// to the next streams.
 namespace packtrace::PACKTRACE_ISA {
 namespace {
 
@@ -51,12 +51,12 @@ inline Vec3v<Real> local_color(const ShadeContext<F, Real>& context,
     return color;
 }
 
-/// The next generation's rays, mirrored before refracted ones: their order does not depend on
-/// the packet width.
+/// The next generation's rays, reflected before refracted ones, so that their order does not depend
+/// on the packet width.
 template <abi::Features F, class Real>
 struct Children {
-    RayStream<F, Real>* mirrored;
-    RayStream<F, Real>* refracted;  ///< null where nothing refracts
+    RayStream<F, Real>* reflected;
+    RayStream<F, Real>* refracted;  ///< null if nothing refracts
 };
 
 template <abi::Features F, class Real>
@@ -71,7 +71,7 @@ inline void spawn_children(const ShadeContext<F, Real>& context, const Children<
         const std::uint32_t glass = active & any_channel(material.transmit);
         if (glass != 0) {
             const RefractedPacket<Real> refracted = refract(*context.scene, surface, inside, glass);
-            // Total internal reflection: the transmitted share is mirrored too.
+            // Total internal reflection: the transmitted share is reflected too.
             reflect =
                 select(from_bits<Real>(refracted.total), reflect + material.transmit, reflect);
             spawn_refracted(
@@ -79,8 +79,8 @@ inline void spawn_children(const ShadeContext<F, Real>& context, const Children<
                 heavy_enough(context, path, material.transmit, glass & ~refracted.total));
         }
     }
-    spawn_mirrored(*children.mirrored, *context.scene, surface, path, reflect, inside,
-                   heavy_enough(context, path, reflect, active & any_channel(reflect)));
+    spawn_reflected(*children.reflected, *context.scene, surface, path, reflect, inside,
+                    heavy_enough(context, path, reflect, active & any_channel(reflect)));
 }
 
 template <abi::Features F, class Real>
@@ -114,7 +114,8 @@ inline void shade_packet(PixelWrite write, const ShadeContext<F, Real>& context,
     write_colors(write, pixels, path.pixel, color, active);
 }
 
-/// The hits of a scene in which no light reaches anything: their colour is their material's alone.
+/// Shades the hits of a scene in which no light reaches any object: their colour is that of the
+/// material.
 template <abi::Features F, class Real>
 inline void shade_flat(const abi::SceneView<Real>& scene, const HitStream<F, Real>& hits,
                        Real* pixels)

@@ -3,13 +3,14 @@
 #include "kernels/geometry/cone.hpp"
 #include "kernels/stream/tile_memory.hpp"
 
-// Rays of one generation of several tiles, sorted by the octant of their direction and then by
-// where they start: rays of mirrors that are small, or curved, have little in common with their
-// neighbours in the picture. Those sorted next to each other meet more of the same boxes.
+// Sorts the rays of one generation of several tiles by the octant of their direction, then by their
+// origin. Rays reflected by small or curved mirrors have little in common with their neighbours in
+// the picture. Rays that are neighbours after sorting hit more of the same boxes.
 namespace packtrace::PACKTRACE_ISA {
 namespace {
 
-/// Keys are an octant's three bits and Morton's order of cells, each axis cut in 2^cell_bits.
+/// A key has three bits for the octant, then the Morton code of the origin's cell; each axis has
+/// 2^cell_bits cells.
 inline constexpr int cell_bits = 3;
 inline constexpr int sort_keys = 8 << 3 * cell_bits;
 
@@ -20,10 +21,10 @@ static_assert(most_sorted <= 1 << 16);
 
 template <abi::Features F, class Real>
 struct SortedWork {
-    RayStream<F, Real>* streams[2];  ///< of this generation and the next, abi::block_tiles each
+    RayStream<F, Real>* streams[2];  ///< of this and the next generation, abi::block_tiles each
     RayNumber order[most_sorted];
     std::uint16_t key[most_sorted];
-    std::uint16_t next[sort_keys];  ///< place of the next ray with a key, while they are sorted
+    std::uint16_t next[sort_keys];  ///< while sorting: index of the next ray with a key
 };
 
 /// Maps coordinates to cells.
@@ -38,18 +39,18 @@ struct SortGrid {
         for (int axis = 0; axis < 3; ++axis) {
             const Real size = box.high[axis] - box.low[axis];
             low[axis] = box.low[axis];
-            // Nothing is to be told apart in what is too small or too large.
+            // If the box is too small or too large, all rays are in one cell.
             scale[axis] = size > Real(0x1p-100) && size < Real(0x1p100) ? last / size : Real(0);
         }
     }
 };
 
-/// None of the streams is empty.
+/// The box of the origins of several streams, none of which is empty.
 template <abi::Features F, class Real>
-inline Box<Real> box_of_streams(const RayStream<F, Real>* streams, int count)
+inline Box<Real> box_of_streams(const RayStream<F, Real>* streams, int stream_count)
 {
     Box<Real> all = box_of(streams->org, streams->count);
-    for (int i = 1; i < count; ++i) {
+    for (int i = 1; i < stream_count; ++i) {
         const Box<Real> box = box_of(streams[i].org, streams[i].count);
         for (int axis = 0; axis < 3; ++axis) {
             all.low[axis] = box.low[axis] < all.low[axis] ? box.low[axis] : all.low[axis];
@@ -59,7 +60,7 @@ inline Box<Real> box_of_streams(const RayStream<F, Real>* streams, int count)
     return all;
 }
 
-/// A number below 2^cell_bits with two zeros between its bits.
+/// Puts two zeros between the bits of a number below 2^cell_bits.
 template <class Real>
 inline vint<Real> spread_cell(const vint<Real>& cell)
 {
@@ -86,15 +87,16 @@ inline vint<Real> sort_key(const SortGrid<Real>& grid, const Vec3v<Real>& org,
     return key;
 }
 
-/// Fills `sorted.order` with the rays of `count` streams, none of them empty; returns how many
-/// there are. A sort by counting, in one pass.
+/// Fills `sorted.order` with the sorted rays of `stream_count` streams, none of them empty; returns
+/// the number of rays. It is a counting sort in one pass.
 template <abi::Features F, class Real>
-inline int sort_rays(SortedWork<F, Real>& sorted, const RayStream<F, Real>* streams, int count)
+inline int sort_rays(SortedWork<F, Real>& sorted, const RayStream<F, Real>* streams,
+                     int stream_count)
 {
     for (std::uint16_t& next : sorted.next)
         next = 0;
-    const SortGrid<Real> grid(box_of_streams(streams, count));
-    for (int k = 0; k < count; ++k) {
+    const SortGrid<Real> grid(box_of_streams(streams, stream_count));
+    for (int k = 0; k < stream_count; ++k) {
         std::uint16_t* const key = sorted.key + k * chunk_rays;
         for (int first = 0; first < streams[k].count; first += lanes<Real>) {
             alignas(64) lane_int<Real> keys[lanes<Real>];
@@ -112,7 +114,7 @@ inline int sort_rays(SortedWork<F, Real>& sorted, const RayStream<F, Real>* stre
         next = static_cast<std::uint16_t>(rays);
         rays += same;
     }
-    for (int k = 0; k < count; ++k)
+    for (int k = 0; k < stream_count; ++k)
         for (int i = 0; i < streams[k].count; ++i) {
             const int number = k * chunk_rays + i;
             sorted.order[sorted.next[sorted.key[number]]++] = static_cast<RayNumber>(number);
@@ -120,20 +122,20 @@ inline int sort_rays(SortedWork<F, Real>& sorted, const RayStream<F, Real>* stre
     return rays;
 }
 
-/// Those of `count` numbers, a chunk.
+/// Copies the rays with `ray_count` numbers, a chunk, to a stream.
 template <abi::Features F, class Real>
 inline void gather_rays(RayStream<F, Real>& to, const RayStream<F, Real>* streams,
-                        const RayNumber* numbers, int count)
+                        const RayNumber* numbers, int ray_count)
 {
-    for (int i = 0; i < count; ++i) {
+    for (int i = 0; i < ray_count; ++i) {
         const RayStream<F, Real>& from = streams[numbers[i] / chunk_rays];
         const int ray = numbers[i] % chunk_rays;
         for_each_array<F>(to.starts != nullptr,
                           [&](const auto& array) { array(to)[i] = array(from)[ray]; });
     }
-    to.count = count;
+    to.count = ray_count;
     if constexpr (F.probe)
-        to.mirrored = count;
+        to.reflected_count = ray_count;
 }
 
 }  // namespace

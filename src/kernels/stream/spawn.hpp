@@ -3,27 +3,28 @@
 #include "kernels/precision/leave_surface.hpp"
 #include "kernels/stream/probe.hpp"
 
-// Children of a packet of hits: mirrored and refracted rays, appended to streams.
+// Appends the child rays of a packet of hits, reflected and refracted rays, to streams.
 namespace packtrace::PACKTRACE_ISA {
 namespace {
 
-/// Where rays start that go on outside in the lanes of `outside`, inside in the others.
+/// The origins of child rays, which continue outside in the lanes of `outside`, inside in the
+/// others.
 template <class Real>
 inline Vec3v<Real> start_point(const SurfacePacket<Real>& surface, std::uint32_t outside)
 {
-    return select(from_bits<Real>(outside & all_lanes<Real>), surface.point + surface.lift,
-                  surface.point - surface.lift);
+    return select(from_bits<Real>(outside & all_lanes<Real>), surface.point + surface.offset,
+                  surface.point - surface.offset);
 }
 
-/// Rays that leave a packet of surfaces.
+/// Child rays of a packet of surfaces.
 template <class Real>
 struct ChildPacket {
     Vec3v<Real> dir;
-    std::uint32_t outside;  ///< lanes that go on outside
-    int branch;             ///< of their ids: 0 for mirrored and 1 for refracted rays
+    std::uint32_t outside;  ///< lanes that continue outside
+    int branch;             ///< bit of their ids: 0 for reflected and 1 for refracted rays
 };
 
-/// What rays that leave a surface are told of it.
+/// Appends the surfaces that child rays start on.
 template <abi::Features F, class Real, class Lanes>
 inline void append_start(RayStream<F, Real>& next, const SurfacePacket<Real>& surface,
                          const SecondHit<Real>& second, const Lanes& chosen)
@@ -63,21 +64,21 @@ inline void append_children(RayStream<F, Real>& next, const abi::SceneView<Real>
 }
 
 template <class Real>
-inline Vec3v<Real> mirrored(const SurfacePacket<Real>& surface)
+inline Vec3v<Real> reflected(const SurfacePacket<Real>& surface)
 {
     const vreal<Real> twice = dot(surface.normal, surface.dir) * vreal<Real>(Real(-2));
     return madd<Real>(twice, surface.normal, surface.dir);
 }
 
 template <abi::Features F, class Real>
-inline void spawn_mirrored(RayStream<F, Real>& next, const abi::SceneView<Real>& scene,
-                           const SurfacePacket<Real>& surface, const PathPacket<Real>& path,
-                           const Vec3v<Real>& reflect, const GlassPacket<Real>& inside,
-                           std::uint32_t active)
+inline void spawn_reflected(RayStream<F, Real>& next, const abi::SceneView<Real>& scene,
+                            const SurfacePacket<Real>& surface, const PathPacket<Real>& path,
+                            const Vec3v<Real>& reflect, const GlassPacket<Real>& inside,
+                            std::uint32_t active)
 {
     if (active != 0)
         append_children(next, scene, surface, path, reflect, inside,
-                        {mirrored(surface), ~surface.leaving, 0}, active);
+                        {reflected(surface), ~surface.leaving, 0}, active);
 }
 
 template <abi::Features F, class Real>

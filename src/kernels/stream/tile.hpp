@@ -4,11 +4,11 @@
 #include "kernels/stream/camera_rays.hpp"
 #include "kernels/stream/chunk.hpp"
 
-// Tiles of a picture, from camera rays to finished pixels.
+// Renders tiles of a picture, from camera rays to finished pixels.
 namespace packtrace::PACKTRACE_ISA {
 namespace {
 
-/// Traces a generation chunk by chunk, each with all its descendants before the next: memory
+/// Traces a generation chunk by chunk, each with all its descendants before the next. So memory
 /// grows with the depth, not with the number of rays.
 template <abi::Features F, class Real>
 void trace_generation(const TileRun<F, Real>& run, const RayStream<F, Real>& rays, int depth)
@@ -20,16 +20,16 @@ void trace_generation(const TileRun<F, Real>& run, const RayStream<F, Real>& ray
     }
 }
 
-/// 1 for a stream with rays in it, else 0.
+/// 1 for a stream that contains rays, else 0.
 template <abi::Features F, class Real>
 inline int has_rays(const RayStream<F, Real>* stream)
 {
     return stream != nullptr && stream->count > 0 ? 1 : 0;
 }
 
-/// Traces a generation of several tiles, sorted, each ray before any of the next generation.
-/// Nothing but mirrors sends rays on, so that a pixel has one ray a generation, and its light is
-/// added up in the same order as by trace_generation().
+/// Traces the generations of several tiles, sorted, one generation after another. Only mirrors make
+/// child rays here, so a pixel has one ray per generation, and its light is added in the same order
+/// as by trace_generation().
 template <abi::Features F, class Real>
 void trace_sorted(const TileRun<F, Real>& run, int streams)
 {
@@ -50,7 +50,7 @@ void trace_sorted(const TileRun<F, Real>& run, int streams)
     }
 }
 
-/// Shades the hits of camera rays, and gathers the rays that go on from there as shade_chunk().
+/// Shades the hits of camera rays, and collects their child rays as shade_chunk() does.
 template <abi::Features F, class Real>
 inline RayStream<F, Real>* shade_camera(const TileRun<F, Real>& run, RayStream<F, Real>* next)
 {
@@ -62,7 +62,7 @@ inline RayStream<F, Real>* shade_camera(const TileRun<F, Real>& run, RayStream<F
     return nullptr;
 }
 
-/// Asks for the cache lines of a tile's pixels, so that they are there when they are written.
+/// Prefetches the cache lines of a tile's pixels in the picture.
 template <class Real>
 inline void fetch_picture(const abi::TileJob<Real>& job)
 {
@@ -74,7 +74,7 @@ inline void fetch_picture(const abi::TileJob<Real>& job)
             __builtin_prefetch(job.rgb + row * job.row_stride + element, 1);
 }
 
-/// The finished pixels, row by row, or the samples in their order.
+/// Writes the finished pixels row by row, or the samples in their order.
 template <class Real>
 inline void write_tile(const abi::TileJob<Real>& job, const Real* pixels)
 {
@@ -87,8 +87,8 @@ inline void write_tile(const abi::TileJob<Real>& job, const Real* pixels)
         write_row(job.rgb + row * job.row_stride, pixels, row, job.width);
 }
 
-/// The camera rays of a tile, whose first pixel has the number `first_pixel` among those of all
-/// tiles.
+/// Traces the camera rays of a tile. Its first pixel has the number `first_pixel` among the pixels
+/// of all tiles.
 template <abi::Features F, class Real>
 inline void trace_camera_of_tile(const TileRun<F, Real>& run, const abi::TileJob<Real>& job,
                                  int first_pixel)
@@ -97,7 +97,8 @@ inline void trace_camera_of_tile(const TileRun<F, Real>& run, const abi::TileJob
     TileMemory<F, Real>& memory = *work.memory;
     const int rays = job.samples != nullptr ? job.samples->count : job.width * job.height;
     counts.camera += static_cast<unsigned>(rays);
-    // Against what the tile's cone may meet; a hit's first light replaces the background.
+    // Rays are tested against the objects that the tile's cone may hit. The first light of a hit
+    // replaces the background.
     const Cone<Real> cone = camera_cone(job);
     find_objects<F>(work.visible, cone, scene);
     const bool are_all = picks_all<F>(work.visible, cone, scene);
@@ -115,12 +116,12 @@ inline void trace_camera_of_tile(const TileRun<F, Real>& run, const abi::TileJob
     } else if (is_probed<F>(job) || !work.visible.empty() || scene.lighting.seen_within > 0) {
         trace_camera(job, first_pixel, work.visible, memory, counts);
     } else {
-        tell_untraced(static_cast<std::uint64_t>(rays));
+        record_untraced(static_cast<std::uint64_t>(rays));
     }
 }
 
-/// Up to abi::block_tiles tiles of one frame. More than one, whose mirrored rays are traced
-/// together, only of scenes without glass.
+/// Renders up to abi::block_tiles tiles of one frame. With several tiles, reflected rays are traced
+/// together; the scene must have no glass then.
 template <abi::Features F, class Real>
 inline abi::RayCounts render_tiles(const abi::TileJob<Real>* tiles, int count)
 {

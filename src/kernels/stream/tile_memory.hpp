@@ -4,22 +4,23 @@
 #include "kernels/shade/glass.hpp"
 #include "kernels/stream/pixels.hpp"
 
-// The working memory of one tile: streams of rays in structure-of-arrays form.
+// The working memory of tiles: streams of rays as structures of arrays.
 namespace packtrace::PACKTRACE_ISA {
 namespace {
 
-/// Hits are shaded, and rays traced, at most this many at a time, whatever the packet width.
+/// The largest number of rays that are traced, or hits that are shaded, at once, whatever the
+/// packet width.
 inline constexpr int chunk_rays = abi::tile_pixels;
 
-/// A chunk's children: one a ray, or two where glass refracts.
+/// The largest number of child rays of a chunk: one per ray, or two if glass refracts.
 template <abi::Features F>
 inline constexpr int stream_rays = F.glass ? 2 * chunk_rays : chunk_rays;
 
-/// Room for one packet is left behind the last ray.
+/// The array has padding for one packet after the last ray.
 template <abi::Features F, class Element>
 using StreamArray = Element[stream_rays<F> + abi::padding];
 
-/// The glass each ray is in, only where there is any.
+/// The glass that each ray is in; only with Features::glass.
 template <bool Glass, abi::Features F, class Real>
 struct GlassArrays {
 };
@@ -28,38 +29,39 @@ struct GlassArrays<true, F, Real> {
     StreamArray<F, lane_int<Real>> inside[abi::glass_depth];
 };
 
-/// Where each ray's path came along, and whom to tell, only with a probe.
+/// The path of each ray, and the receiver of events; only with a probe.
 template <bool Probe, abi::Features F, class Real>
 struct PathArrays {
 };
 template <abi::Features F, class Real>
 struct PathArrays<true, F, Real> {
     StreamArray<F, lane_int<Real>> path;
-    const abi::Probe<Real>* probe;  ///< set in hits; null where nobody is told
-    int mirrored;                   ///< set in rays: how many come before the refracted ones
+    const abi::Probe<Real>* probe;  ///< set in hits; null if no pixel is probed
+    int reflected_count;  ///< set in rays: the number of reflected rays, which come before the
+                          ///< refracted ones
 };
 
-/// Where rays started that leave a surface, for SelfHits::exact.
+/// The start of rays that leave a surface, for SelfHits::exact.
 template <abi::Features F, class Real>
 struct StartArrays {
     StreamArray<F, Real> point[3];
     StreamArray<F, lane_int<Real>> surface;
-    StreamArray<F, Real> second;  ///< t at which they meet its body again, from `point`
-    StreamArray<F, lane_int<Real>> met_again;  ///< the surface they meet there
+    StreamArray<F, Real> second;  ///< t at which they hit their own object again, from `point`
+    StreamArray<F, lane_int<Real>> met_again;  ///< the surface that they hit there
 };
 
 /// Rays of one generation, in an order that does not depend on the packet width.
 template <abi::Features F, class Real>
 struct alignas(64) RayStream : GlassArrays<F.glass, F, Real>, PathArrays<F.probe, F, Real> {
-    StreamArray<F, Real> weight[abi::weight_channels(F)];  ///< of each ray's path so far
+    StreamArray<F, Real> weight[abi::weight_channels(F)];  ///< weight of each ray's path so far
     StreamArray<F, Real> org[3];
     StreamArray<F, Real> dir[3];
     StreamArray<F, lane_int<Real>> pixel;  ///< number in the tile, along its Z-order curve
-    StartArrays<F, Real>* starts;          ///< null where only the notes' rule is asked for
+    StartArrays<F, Real>* starts;          ///< null with SelfHits::note
     int count = 0;
 };
 
-/// The rays of a chunk that hit something, where they did.
+/// The hits of a chunk of rays.
 template <abi::Features F, class Real>
 struct alignas(64) HitStream : GlassArrays<F.glass, F, Real>, PathArrays<F.probe, F, Real> {
     StreamArray<F, Real> weight[abi::weight_channels(F)];
@@ -77,13 +79,13 @@ struct alignas(64) TileMemory {
     HitStream<F, Real> hits;
 };
 
-template <class Real, std::size_t Size>
-inline Vec3v<Real> load3(const Real (&from)[3][Size], int first)
+template <class Real, std::size_t Length>
+inline Vec3v<Real> load3(const Real (&from)[3][Length], int first)
 {
     return {load(from[0] + first), load(from[1] + first), load(from[2] + first)};
 }
 
-/// Appends the lanes of a packet that are chosen to arrays, in order.
+/// Appends the chosen lanes of packets to arrays, in order.
 struct ChosenLanes {
     std::uint32_t pattern;
 
@@ -103,8 +105,8 @@ struct WholePacket {
     }
 };
 
-/// Calls `visit` with what appends the lanes of `active`: most packets are whole, and have
-/// nothing to move together.
+/// Calls `visit` with an object that appends the lanes of `active`. Most packets are whole and need
+/// no compression.
 template <class Real, class Visit>
 inline void with_appender(std::uint32_t active, const Visit& visit)
 {
@@ -114,8 +116,8 @@ inline void with_appender(std::uint32_t active, const Visit& visit)
         visit(ChosenLanes{active});
 }
 
-template <class Real, std::size_t Size, class Lanes>
-inline void append3(Real (&to)[3][Size], int at, const Lanes& chosen, const Vec3v<Real>& v)
+template <class Real, std::size_t Length, class Lanes>
+inline void append3(Real (&to)[3][Length], int at, const Lanes& chosen, const Vec3v<Real>& v)
 {
     chosen.append(to[0] + at, v.x);
     chosen.append(to[1] + at, v.y);
@@ -134,7 +136,7 @@ inline Vec3v<Real> load_weight(const Stream<F, Real>& stream, int first)
     }
 }
 
-/// Does not count the rays.
+/// Appends weights; does not change the count.
 template <template <abi::Features, class> class Stream, abi::Features F, class Real, class Lanes>
 inline void append_weight(Stream<F, Real>& stream, const Lanes& chosen, const Vec3v<Real>& weight)
 {
@@ -144,7 +146,7 @@ inline void append_weight(Stream<F, Real>& stream, const Lanes& chosen, const Ve
         chosen.append(stream.weight[0] + stream.count, weight.x);
 }
 
-/// Does not count the rays.
+/// Appends glass bodies; does not change the count.
 template <template <abi::Features, class> class Stream, abi::Features F, class Real, class Lanes>
 inline void append_glass(Stream<F, Real>& stream, const Lanes& chosen,
                          const GlassPacket<Real>& inside)
@@ -154,7 +156,7 @@ inline void append_glass(Stream<F, Real>& stream, const Lanes& chosen,
             chosen.append(stream.inside[i] + stream.count, inside.body[i]);
 }
 
-/// The glass of a packet of a stream; nothing is filled in where the stream has none.
+/// The glass of a packet of a stream; not set if the stream has none.
 template <template <abi::Features, class> class Stream, abi::Features F, class Real>
 inline GlassPacket<Real> load_glass(const Stream<F, Real>& stream, int first)
 {
@@ -165,7 +167,7 @@ inline GlassPacket<Real> load_glass(const Stream<F, Real>& stream, int first)
     return glass;
 }
 
-/// The paths of a packet of a stream; nothing is read where there is no probe.
+/// The paths of a packet of a stream; 0 without a probe.
 template <template <abi::Features, class> class Stream, abi::Features F, class Real>
 inline vint<Real> load_path(const Stream<F, Real>& stream, int first)
 {
@@ -175,7 +177,7 @@ inline vint<Real> load_path(const Stream<F, Real>& stream, int first)
         return vint<Real>(lane_int<Real>(0));
 }
 
-/// Where a packet of a stream starts.
+/// The start of a packet of a stream.
 template <abi::Features F, class Real>
 inline StartPacket<Real> load_start(const RayStream<F, Real>& stream, int first)
 {
@@ -198,7 +200,7 @@ inline SurfacePacket<Real> surface_of(const abi::SceneView<Real>& scene,
                             load(hits.surface + first), active);
 }
 
-/// Whole packets, so that up to one less than a packet more is written.
+/// Copies whole packets, so that up to a packet less one element is written beyond the end.
 template <class Real, class Element>
 inline void copy_packets(Element* to, const Element* from, int count)
 {
@@ -206,7 +208,8 @@ inline void copy_packets(Element* to, const Element* from, int count)
         store(to + i, load(from + i));
 }
 
-/// Calls `visit(array)` for each array of streams of rays: `array(stream)` is that of a stream.
+/// Calls `visit(array)` for each array of streams of rays; `array(stream)` is that array of a
+/// stream.
 template <abi::Features F, class Visit>
 inline void for_each_array(bool have_starts, const Visit& visit)
 {

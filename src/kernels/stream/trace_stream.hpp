@@ -8,11 +8,11 @@
 
 #include <limits>
 
-// From rays to hit points, one generation at a time.
+// Traces rays to their hits, one generation at a time.
 namespace packtrace::PACKTRACE_ISA {
 namespace {
 
-/// A packet of rays with all that its hits take along.
+/// A packet of rays, with all values that their hits inherit.
 template <class Real>
 struct TracedRays {
     RayPacket<Real> rays;
@@ -21,8 +21,8 @@ struct TracedRays {
     StartPacket<Real> start;
 };
 
-/// Lanes whose rays leave the body that they start in at the very place, as where they only touch
-/// it.
+/// Lanes whose rays leave the object that they start in at the start point, as where they only
+/// touch it.
 template <class Real>
 inline std::uint32_t leaves_at_once(const StartPacket<Real>& start, const HitPacket<Real>& hit)
 {
@@ -30,8 +30,9 @@ inline std::uint32_t leaves_at_once(const StartPacket<Real>& start, const HitPac
     return bits(at_once) & bits(int_equal(hit.surface, start.second.surface));
 }
 
-/// Outward normals, but the rays' own directions where they leave at once what these say that they
-/// enter: in a cone's apex, or along the surface. Such a ray would enter it again and again.
+/// Outward normals, but the ray's direction for rays that leave at once although the normal says
+/// that they enter: in a cone's apex, or along the surface. Such a ray would otherwise enter again
+/// and again.
 template <class Real>
 inline Vec3v<Real> leaving_normals(const abi::SceneView<Real>& scene, const Vec3v<Real>& normal,
                                    const RayPacket<Real>& rays, std::uint32_t leaves)
@@ -42,7 +43,7 @@ inline Vec3v<Real> leaving_normals(const abi::SceneView<Real>& scene, const Vec3
                   scale<Real>(vreal<Real>(Real(1)) / sqrt(rays.dir2), rays.dir), normal);
 }
 
-/// Where the rays hit, as far as the scene's shading asks.
+/// Appends points, normals and directions of hits, as far as shading needs them.
 template <abi::Features F, class Real>
 [[gnu::noinline]] void append_places(const abi::SceneView<Real>& scene, HitStream<F, Real>& hits,
                                      const TracedRays<Real>& from, const HitPacket<Real>& hit,
@@ -90,9 +91,9 @@ inline std::uint32_t hit_lanes(const HitPacket<Real>& hit)
     return ~bits(int_equal(hit.surface, vint<Real>(lane_int<Real>(-1)))) & all_lanes<Real>;
 }
 
-/// Nothing is filled in where there is no glass.
+/// The glass that the camera is in; not set without Features::glass.
 template <abi::Features F, class Real>
-inline GlassPacket<Real> glass_around_eye(const abi::CameraView<Real>& camera)
+inline GlassPacket<Real> glass_around_camera(const abi::CameraView<Real>& camera)
 {
     GlassPacket<Real> glass;
     for (int i = 0; F.glass && i < abi::glass_depth; ++i)
@@ -100,7 +101,8 @@ inline GlassPacket<Real> glass_around_eye(const abi::CameraView<Real>& camera)
     return glass;
 }
 
-/// What rays that hit nothing bring: the background, or the lights they run straight to.
+/// The light that rays which hit nothing return: the background, or the lights that they run
+/// straight towards.
 template <class Real>
 inline Vec3v<Real> escaped(const abi::SceneView<Real>& scene, const RayPacket<Real>& rays)
 {
@@ -133,18 +135,18 @@ inline void report_rays(const HitStream<F, Real>& hits, const abi::SceneView<Rea
     if constexpr (F.probe) {
         if (hits.probe == nullptr)
             return;
-        HitPacket<Real> told = hit;
+        HitPacket<Real> reported = hit;
         const std::uint32_t found = hit_lanes(hit) & active;
         if (found != 0)
-            told.t = select(
+            reported.t = select(
                 from_bits<Real>(found),
                 refined<F, Refine::t>(scene.shapes, from.rays, hit, from.start, found).t, hit.t);
         packet_probe(hits, from.path, active)
-            .ray(scene, from.rays, told, escaped(scene, from.rays));
+            .ray(scene, from.rays, reported, escaped(scene, from.rays));
     }
 }
 
-/// A packet of camera rays and what it hit; the pixels hold the background already.
+/// Appends the hits of a packet of camera rays; the pixels hold the background already.
 template <abi::Features F, class Real>
 inline void take_camera_hits(const abi::SceneView<Real>& scene, TileMemory<F, Real>& memory,
                              const TracedRays<Real>& from, const HitPacket<Real>& hit,
@@ -160,7 +162,7 @@ inline void take_camera_hits(const abi::SceneView<Real>& scene, TileMemory<F, Re
                      pixels & ~hits);
 }
 
-/// Of the pixels from number `first` on.
+/// The paths of the pixels from number `first` on.
 template <class Real>
 inline PathPacket<Real> camera_path(int first)
 {
@@ -169,7 +171,7 @@ inline PathPacket<Real> camera_path(int first)
         {one, one, one}, lane_numbers<Real>(first), vint<Real>(lane_int<Real>{abi::camera_path})};
 }
 
-/// The camera rays of a tile, whose pixels are numbered from `first_pixel` on.
+/// Traces the camera rays of a tile, whose pixels are numbered from `first_pixel` on.
 template <abi::Features F, class Real>
 inline void trace_camera(const abi::TileJob<Real>& job, int first_pixel,
                          const FromPoint<F, Real>& visible, TileMemory<F, Real>& memory,
@@ -177,18 +179,18 @@ inline void trace_camera(const abi::TileJob<Real>& job, int first_pixel,
 {
     const vreal<Real> no_end_yet(static_cast<Real>(__builtin_inf()));
     const TileCamera<Real> camera(job);
-    const GlassPacket<Real> inside = glass_around_eye<F>(camera.view);
+    const GlassPacket<Real> inside = glass_around_camera<F>(camera.view);
     for (int first = 0; first < abi::tile_pixels; first += lanes<Real>) {
         const std::uint32_t pixels = lanes_inside(job, first);
         if (pixels == 0)
             continue;
         const RayPacket<Real> rays = camera_rays(camera, first, job.scene->rules.units);
         HitPacket<Real> hit = no_hit<Real>(static_cast<Real>(__builtin_inf()));
-        tell_live(pixels);
-        tell_first(first);
+        record_live(pixels);
+        record_first(first);
         closest_hit<F>(hit, visible, rays, NoOwn{});
-        count_unsure(counts,
-                     settle_packet<F>(*job.scene, rays, hit, no_start<Real>(), no_end_yet, pixels));
+        count_unsure(
+            counts, correct_packet<F>(*job.scene, rays, hit, no_start<Real>(), no_end_yet, pixels));
         take_camera_hits(*job.scene, memory,
                          {rays, camera_path<Real>(first_pixel + first), inside, no_start<Real>()},
                          hit, pixels);
@@ -208,14 +210,14 @@ inline void gather_camera(const abi::TileJob<Real>& job, RayBundle<Real>& bundle
 }
 
 template <abi::Features F, class Real>
-inline int settle_camera_bundle(const abi::SceneView<Real>& scene, RayBundle<Real>& bundle)
+inline int correct_camera_bundle(const abi::SceneView<Real>& scene, RayBundle<Real>& bundle)
 {
-    return settle_bundle<F>(
+    return correct_bundle<F>(
         scene, bundle, [](int) { return no_start<Real>(); },
         [](int) { return vreal<Real>(static_cast<Real>(__builtin_inf())); });
 }
 
-/// The same where the scene has a hierarchy.
+/// The same with a BVH.
 template <abi::Features F, class Real>
 inline void trace_camera_bundle(const abi::TileJob<Real>& job, int first_pixel,
                                 const FromPoint<F, Real>& visible, RayBundle<Real>& bundle,
@@ -223,8 +225,8 @@ inline void trace_camera_bundle(const abi::TileJob<Real>& job, int first_pixel,
 {
     gather_camera<F>(job, bundle);
     closest_of_bundle<F>(*job.scene, visible, bundle);
-    counts.unsure += static_cast<unsigned>(settle_camera_bundle<F>(*job.scene, bundle));
-    const GlassPacket<Real> inside = glass_around_eye<F>(*job.camera);
+    counts.unsure += static_cast<unsigned>(correct_camera_bundle<F>(*job.scene, bundle));
+    const GlassPacket<Real> inside = glass_around_camera<F>(*job.camera);
     for (int first = 0; first < bundle_rays; first += lanes<Real>) {
         const std::uint32_t pixels = active_lanes(bundle, first);
         if (pixels != 0)
@@ -246,7 +248,7 @@ inline TracedRays<Real> load_stream(const abi::SceneView<Real>& scene,
             load_start(stream, first)};
 }
 
-/// A packet of secondary rays and what it hit; what those that miss bring goes into the pixels.
+/// Appends the hits of a packet of secondary rays; adds the light of those that miss to the pixels.
 template <abi::Features F, class Real>
 inline void take_secondary_hits(const abi::SceneView<Real>& scene, TileMemory<F, Real>& memory,
                                 const TracedRays<Real>& from, const HitPacket<Real>& hit,
@@ -261,7 +263,7 @@ inline void take_secondary_hits(const abi::SceneView<Real>& scene, TileMemory<F,
                  from.path.weight * escaped(scene, from.rays), active & ~hits);
 }
 
-/// A chunk of a stream of secondary rays.
+/// Traces a chunk of a stream of secondary rays.
 template <abi::Features F, class Real>
 inline void trace_secondary(const abi::SceneView<Real>& scene, const RayStream<F, Real>& stream,
                             int begin, int end, const FromAnywhere<F, Real>& nearby,
@@ -273,8 +275,8 @@ inline void trace_secondary(const abi::SceneView<Real>& scene, const RayStream<F
         const TracedRays<Real> from = load_stream(scene, stream, first);
         const std::uint32_t active = first_lanes<Real>(end - first);
         HitPacket<Real> hit = start_of_search<F>(from.start, from.rays.dir2, no_end_yet);
-        tell_live(active);
-        tell_first(first - begin);
+        record_live(active);
+        record_first(first - begin);
         if (stream.starts != nullptr)
             closest_hit<F>(
                 hit, nearby, from.rays,
@@ -282,12 +284,12 @@ inline void trace_secondary(const abi::SceneView<Real>& scene, const RayStream<F
         else
             closest_hit<F>(hit, nearby, from.rays, NoOwn{});
         count_unsure(counts,
-                     settle_packet<F>(scene, from.rays, hit, from.start, no_end_yet, active));
+                     correct_packet<F>(scene, from.rays, hit, from.start, no_end_yet, active));
         take_secondary_hits(scene, memory, from, hit, active);
     }
 }
 
-/// The same where the scene has a hierarchy.
+/// The same with a BVH.
 template <abi::Features F, class Real>
 inline void trace_secondary_bundle(const abi::SceneView<Real>& scene,
                                    const RayStream<F, Real>& stream, int begin, int end,
@@ -305,7 +307,7 @@ inline void trace_secondary_bundle(const abi::SceneView<Real>& scene,
     }
     end_bundle(bundle, end - begin);
     closest_of_bundle<F>(scene, nearby, bundle);
-    counts.unsure += static_cast<unsigned>(settle_bundle<F>(
+    counts.unsure += static_cast<unsigned>(correct_bundle<F>(
         scene, bundle, [&](int first) { return load_start(stream, begin + first); },
         [&](int) { return no_end_yet; }));
     for (int first = begin; first < end; first += lanes<Real>)

@@ -6,12 +6,12 @@
 #include "kernels/stream/sort_rays.hpp"
 #include "kernels/stream/tile_memory.hpp"
 
-// How a thread's scratch memory is divided. Sizes depend on the scene and on how many tiles are
-// rendered together.
+// The layout of a thread's scratch memory. Sizes depend on the scene and on the number of tiles
+// that are rendered together.
 namespace packtrace::PACKTRACE_ISA {
 namespace {
 
-/// Hands out 64-byte aligned pieces of a block, or only counts them when there is none.
+/// Allocates 64-byte aligned pieces of a block; without a block it only measures.
 class Arena {
 public:
     explicit Arena(void* block) : block_(static_cast<char*>(block))
@@ -36,7 +36,7 @@ private:
     std::size_t used_ = 0;
 };
 
-/// A bundle, with room for what it keeps.
+/// Takes memory for a bundle and for the bounds that it keeps.
 template <abi::Features F, class Real>
 inline RayBundle<Real>* take_bundle(Arena& arena)
 {
@@ -60,19 +60,20 @@ inline std::size_t count_shadowed(const abi::SceneView<Real>& scene)
     return count;
 }
 
-/// Streams of rays, with room for where they start if the scene wants that.
+/// Takes memory for streams of rays, and for their starts if the scene needs them.
 template <abi::Features F, class Real>
 inline RayStream<F, Real>* take_streams(Arena& arena, const abi::SceneView<Real>& scene,
-                                        std::size_t count)
+                                        std::size_t stream_count)
 {
-    RayStream<F, Real>* const streams = arena.take<RayStream<F, Real>>(count);
-    auto* const starts = arena.take<StartArrays<F, Real>>(scene.rules.start_error > 0 ? count : 0);
-    for (std::size_t i = 0; streams != nullptr && i < count; ++i)
+    RayStream<F, Real>* const streams = arena.take<RayStream<F, Real>>(stream_count);
+    auto* const starts =
+        arena.take<StartArrays<F, Real>>(scene.rules.start_error > 0 ? stream_count : 0);
+    for (std::size_t i = 0; streams != nullptr && i < stream_count; ++i)
         streams[i].starts = scene.rules.start_error > 0 ? starts + i : nullptr;
     return streams;
 }
 
-/// Room for what may stand between one light and hits.
+/// Takes memory for the possible occluders between one light and hits.
 template <abi::Features F, class Real>
 inline void take_occluders(Arena& arena, LightObjects<F, Real>& objects,
                            const abi::SceneView<Real>& scene, const abi::LightRecord<Real>& light)
@@ -85,24 +86,25 @@ inline void take_occluders(Arena& arena, LightObjects<F, Real>& objects,
         take_objects<F>(arena, objects.along, casters_of(scene));
 }
 
-/// Of what a scene does not need there is none.
+/// The working memory of a thread. Parts that a scene does not need are null.
 template <abi::Features F, class Real>
 struct Workspace {
     TileMemory<F, Real>* memory = nullptr;
-    /// Of generations 1 … max_depth; of several tiles one, for a chunk of sorted rays.
+    /// For one tile: the streams of generations 1 … max_depth. For several tiles: one stream, for a
+    /// chunk of sorted rays.
     RayStream<F, Real>* streams = nullptr;
-    SortedWork<F, Real>* sorted = nullptr;  ///< of several tiles
+    SortedWork<F, Real>* sorted = nullptr;  ///< for several tiles
     RayStream<F, Real>* refracted = nullptr;
-    RayBundle<Real>* bundle = nullptr;           ///< where the scene has a hierarchy
-    SurfacePacket<Real>* surfaces = nullptr;     ///< at a chunk's hits, likewise
-    LightShadows<F, Real>* shadows = nullptr;    ///< of each light, likewise
-    FromPoint<F, Real> visible;                  ///< from the camera
-    FromAnywhere<F, Real> nearby;                ///< from a chunk's rays
-    LightObjects<F, Real>* occluders = nullptr;  ///< from each light
-    double* lacks = nullptr;                     ///< ShadeContext::lacks, of all tiles
+    RayBundle<Real>* bundle = nullptr;           ///< only with a BVH
+    SurfacePacket<Real>* surfaces = nullptr;     ///< at a chunk's hits; only with a BVH and shadows
+    LightShadows<F, Real>* shadows = nullptr;    ///< per light; only with a BVH and shadows
+    FromPoint<F, Real> visible;                  ///< objects visible from the camera
+    FromAnywhere<F, Real> nearby;                ///< objects near a chunk's rays
+    LightObjects<F, Real>* occluders = nullptr;  ///< per light
+    double* lacks = nullptr;                     ///< ShadeContext::lacks, for all tiles
     std::size_t bytes = 0;
 
-    /// With no `scratch`, only `bytes` is of use.
+    /// With a null `scratch`, only `bytes` is valid.
     Workspace(void* scratch, const abi::SceneView<Real>& scene, int tiles)
     {
         const std::size_t lights = static_cast<std::size_t>(scene.lighting.lights.count);
@@ -151,17 +153,17 @@ private:
         }
     }
 
-    void take_all_occluders(Arena& arena, const abi::SceneView<Real>& scene, bool has_room)
+    void take_all_occluders(Arena& arena, const abi::SceneView<Real>& scene, bool has_memory)
     {
         LightObjects<F, Real> measured;
         for (int i = 0; i < scene.lighting.lights.count; ++i)
-            take_occluders<F, Real>(arena, has_room ? occluders[i] : measured, scene,
+            take_occluders<F, Real>(arena, has_memory ? occluders[i] : measured, scene,
                                     scene.lighting.lights.data[i]);
     }
 };
 
-/// Enough for so many tiles together, and for fewer: one alone has a stream for each generation,
-/// which deep scenes need more for than for some tiles.
+/// Enough memory for `tiles` tiles together and for fewer. One tile alone has a stream per
+/// generation, which in deep scenes needs more memory than a few tiles together.
 template <abi::Features F, class Real>
 inline std::size_t scratch_bytes(const abi::SceneView<Real>& scene, int tiles)
 {

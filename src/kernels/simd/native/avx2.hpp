@@ -5,7 +5,7 @@
 
 #include <immintrin.h>
 
-// What xsimd lacks or offers under differing names, in AVX2 and FMA3 instructions.
+// What xsimd lacks, or names differently between versions, in AVX2 and FMA3 instructions.
 namespace packtrace::PACKTRACE_ISA {
 namespace {
 
@@ -77,7 +77,7 @@ inline vmask<double> from_bits<double>(std::uint32_t pattern)
     return _mm256_castsi256_pd(_mm256_cmpeq_epi64(chosen, lane_bit));
 }
 
-/// Pixels r, g, b, 0 of all lanes, in their order.
+/// Stores r, g, b, 0 of every lane, in lane order.
 inline void store_pixels(float* to, vreal<float> r, vreal<float> g, vreal<float> b)
 {
     const __m256 zero = _mm256_setzero_ps();
@@ -85,7 +85,7 @@ inline void store_pixels(float* to, vreal<float> r, vreal<float> g, vreal<float>
     const __m256d rg_high = _mm256_castps_pd(_mm256_unpackhi_ps(r, g));
     const __m256d b_low = _mm256_castps_pd(_mm256_unpacklo_ps(b, zero));
     const __m256d b_high = _mm256_castps_pd(_mm256_unpackhi_ps(b, zero));
-    // Lanes l and l + 4 each; then halves are exchanged.
+    // Each register holds the pixels of lanes l and l + 4. Then 128-bit halves are exchanged.
     const __m256 first = _mm256_castpd_ps(_mm256_unpacklo_pd(rg_low, b_low));
     const __m256 second = _mm256_castpd_ps(_mm256_unpackhi_pd(rg_low, b_low));
     const __m256 third = _mm256_castpd_ps(_mm256_unpacklo_pd(rg_high, b_high));

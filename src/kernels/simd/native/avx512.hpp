@@ -4,7 +4,7 @@
 
 #include <immintrin.h>
 
-// What xsimd lacks or gets wrong (its 8.1 does not fuse fma here), in AVX-512 instructions.
+// What xsimd lacks or gets wrong (fma of xsimd 8.1 is not fused here), in AVX-512 instructions.
 namespace packtrace::PACKTRACE_ISA {
 namespace {
 
@@ -41,7 +41,7 @@ inline std::uint32_t bits(vmask<double> m)
 {
     return static_cast<std::uint32_t>(m.data);
 }
-// xsimd 8.1 computes `|` of masks in general registers.
+// xsimd 8.1 computes `|` of masks in general-purpose registers.
 inline vmask<float> either(vmask<float> a, vmask<float> b)
 {
     return _kor_mask16(a.data, b.data);
@@ -74,7 +74,7 @@ inline vmask<double> int_less(vint<double> i, vint<double> j)
     return _mm512_cmplt_epi64_mask(i, j);
 }
 
-/// Pixels r, g, b, 0 of all lanes, in their order.
+/// Stores r, g, b, 0 of every lane, in lane order.
 inline void store_pixels(float* to, vreal<float> r, vreal<float> g, vreal<float> b)
 {
     const __m512 zero = _mm512_setzero_ps();
@@ -82,7 +82,8 @@ inline void store_pixels(float* to, vreal<float> r, vreal<float> g, vreal<float>
     const __m512d rg_high = _mm512_castps_pd(_mm512_unpackhi_ps(r, g));
     const __m512d b_low = _mm512_castps_pd(_mm512_unpacklo_ps(b, zero));
     const __m512d b_high = _mm512_castps_pd(_mm512_unpackhi_ps(b, zero));
-    // Lanes l, l + 4, l + 8 and l + 12 each; then a transposition of quarters.
+    // Each register holds the pixels of lanes l, l + 4, l + 8 and l + 12. Then 128-bit quarters are
+    // transposed.
     const __m512 first = _mm512_castpd_ps(_mm512_unpacklo_pd(rg_low, b_low));
     const __m512 second = _mm512_castpd_ps(_mm512_unpackhi_pd(rg_low, b_low));
     const __m512 third = _mm512_castpd_ps(_mm512_unpacklo_pd(rg_high, b_high));
@@ -117,7 +118,7 @@ inline vreal<float> narrow(vreal<double> low, vreal<double> high)
                               1);
 }
 
-// The memory form of vcompressps is microcoded on Zen 4: compress in the register instead.
+// The memory form of vcompressps is microcoded on Zen 4, so this compresses in the register.
 inline vreal<float> compress(std::uint32_t pattern, vreal<float> x)
 {
     return _mm512_maskz_compress_ps(static_cast<__mmask16>(pattern), x);

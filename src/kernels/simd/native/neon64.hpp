@@ -4,9 +4,9 @@
 
 #include <arm_neon.h>
 
-// xsimd 8 has for floats what 32-bit Arm can: quotients and square roots from estimates, and
-// rounding by way of integers, which loses the sign of a zero. 64-bit Arm rounds all of them
-// correctly.
+// For floats, xsimd 8 uses what 32-bit Arm has: quotients and square roots from estimates, and
+// rounding through integers, which loses the sign of zero. 64-bit Arm has correctly rounded
+// instructions for all of these.
 namespace xsimd {
 
 template <>
@@ -36,7 +36,7 @@ inline __attribute__((always_inline)) batch<double, neon64> floor(
 
 }  // namespace xsimd
 
-// What xsimd lacks or offers under differing names, in 64-bit Arm instructions.
+// What xsimd lacks, or names differently between versions, in 64-bit Arm instructions.
 namespace packtrace::PACKTRACE_ISA {
 namespace {
 
@@ -108,7 +108,7 @@ inline vmask<double> from_bits<double>(std::uint32_t pattern)
     return vtstq_u64(vdupq_n_u64(pattern), vld1q_u64(lane_bit));
 }
 
-/// Pixels r, g, b, 0 of all lanes, in their order.
+/// Stores r, g, b, 0 of every lane, in lane order.
 inline void store_pixels(float* to, vreal<float> r, vreal<float> g, vreal<float> b)
 {
     vst4q_f32(to, (float32x4x4_t{{r, g, b, vdupq_n_f32(0.0f)}}));

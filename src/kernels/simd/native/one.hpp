@@ -6,8 +6,8 @@
 #include <immintrin.h>
 #endif
 
-// What xsimd lacks, for packets of one lane. Fused operations, as on the wider sets but sse42: the
-// same bits.
+// What xsimd lacks, for packets of one lane. Multiply-add is fused as on all wider sets but sse42,
+// so results have the same bits.
 namespace packtrace::PACKTRACE_ISA {
 namespace {
 
@@ -68,7 +68,7 @@ inline vmask<Real> from_bits(std::uint32_t pattern)
     return {(pattern & 1u) != 0};
 }
 
-/// A pixel r, g, b, 0.
+/// Stores r, g, b, 0.
 inline void store_pixels(float* to, vreal<float> r, vreal<float> g, vreal<float> b)
 {
     to[0] = r.value;
@@ -87,8 +87,8 @@ inline vreal<float> estimate_inverse_sqrt(vreal<float> x)
 #endif
 }
 
-// A packet of doubles has as many lanes as one of floats: what would be the upper half is the same
-// again, computed once and not used.
+// A packet of doubles has as many lanes as one of floats. The upper half is a copy of the lower; it
+// is computed but not used.
 
 inline vreal<double> widen_low(vreal<float> x)
 {

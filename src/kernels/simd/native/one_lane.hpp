@@ -3,8 +3,8 @@
 #include <cstddef>
 #include <cstdint>
 
-// Packets of one lane: plain numbers under the names of xsimd's packets. Kernels made of them tell
-// what lanes give from what the algorithm gives.
+// Packets of one lane: scalars with the interface of xsimd's packets. Kernels compiled with them
+// separate what SIMD gains from what the algorithm gains.
 namespace packtrace::PACKTRACE_ISA {
 namespace {
 
@@ -97,7 +97,7 @@ struct OneLane {
         return {a.value != b.value};
     }
 
-    // Of integers.
+    // Integers only.
     friend OneLane operator&(OneLane a, OneLane b)
     {
         return static_cast<T>(a.value & b.value);
@@ -120,7 +120,7 @@ struct OneLane {
     }
 };
 
-/// What xsimd calls so, of one lane.
+/// The functions of xsimd, for one lane.
 namespace one_lane_operations {
 
 template <class T>

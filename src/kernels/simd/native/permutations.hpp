@@ -4,12 +4,12 @@
 
 #include <cstdint>
 
-// Tables that move the chosen lanes of a register to its front.
+// Tables of permutations that move chosen lanes to the front of a register.
 namespace packtrace::PACKTRACE_ISA {
 namespace {
 
-/// For every choice of `Lanes` lanes, the lane numbers chosen, in order, each spread over
-/// `Parts` consecutive parts of a lane; the rest repeats part 0.
+/// For every set of chosen lanes out of `Lanes`: the chosen lane numbers in order, each as `Parts`
+/// consecutive parts of a lane. The remaining entries are 0.
 template <int Lanes, int Parts>
 struct CompressTable {
     alignas(64) std::uint8_t part[1 << Lanes][static_cast<std::size_t>(Lanes * Parts)] = {};

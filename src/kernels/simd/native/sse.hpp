@@ -5,7 +5,7 @@
 
 #include <immintrin.h>
 
-// What xsimd lacks, in SSE4.2 instructions; with FMA where the object is compiled for it.
+// What xsimd lacks, in SSE4.2 instructions, with FMA if the object is compiled for it.
 namespace packtrace::PACKTRACE_ISA {
 namespace {
 
@@ -98,7 +98,7 @@ inline vmask<double> from_bits<double>(std::uint32_t pattern)
     return _mm_castsi128_pd(_mm_cmpeq_epi64(chosen, lane_bit));
 }
 
-/// Pixels r, g, b, 0 of all lanes, in their order.
+/// Stores r, g, b, 0 of every lane, in lane order.
 inline void store_pixels(float* to, vreal<float> r, vreal<float> g, vreal<float> b)
 {
     const __m128 zero = _mm_setzero_ps();

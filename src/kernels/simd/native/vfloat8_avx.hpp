@@ -5,7 +5,8 @@
 #include <cstdint>
 #include <immintrin.h>
 
-// vfloat8 floats, whatever the packet width: the boxes of a node. Here in one AVX register.
+// Eight floats, whatever the packet width, for the eight boxes of a node. Here they are in one AVX
+// register.
 namespace packtrace::PACKTRACE_ISA {
 namespace {
 
@@ -50,7 +51,7 @@ inline vfloat8 operator/(vfloat8 a, vfloat8 b)
 {
     return _mm256_div_ps(a.v, b.v);
 }
-/// a b - c, fused or not: only for bounds with room for either.
+/// a b - c, fused or not: only for bounds that are wide enough for either.
 inline vfloat8 about_msub(vfloat8 a, vfloat8 b, vfloat8 c)
 {
     return _mm256_fmsub_ps(a.v, b.v, c.v);
@@ -75,7 +76,7 @@ inline vfloat8 blend(vfloat8 sign, vfloat8 a, vfloat8 b)
     return _mm256_blendv_ps(a.v, b.v, sign.v);
 }
 /// Sign bits set where a <= b.
-inline vfloat8 at_most8(vfloat8 a, vfloat8 b)
+inline vfloat8 operator<=(vfloat8 a, vfloat8 b)
 {
     return _mm256_cmp_ps(a.v, b.v, _CMP_LE_OQ);
 }
@@ -92,7 +93,7 @@ inline float largest_of8(vfloat8 a)
     return _mm_cvtss_f32(_mm_max_ss(most, _mm_movehdup_ps(most)));
 }
 
-/// Element i is what `op` makes of v[i]'s elements, such as the least of them.
+/// Element i is the reduction of the elements of v[i] by `op`, such as their minimum.
 template <class Op>
 inline vfloat8 reduce8(const vfloat8 (&v)[8], Op op)
 {

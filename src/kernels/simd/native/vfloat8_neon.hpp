@@ -5,7 +5,8 @@
 #include <arm_neon.h>
 #include <cstdint>
 
-// vfloat8 floats, whatever the packet width: the boxes of a node. Here in two NEON registers.
+// Eight floats, whatever the packet width, for the eight boxes of a node. Here they are in two NEON
+// registers.
 namespace packtrace::PACKTRACE_ISA {
 namespace {
 
@@ -54,7 +55,7 @@ inline vfloat8 operator/(vfloat8 a, vfloat8 b)
 {
     return {vdivq_f32(a.low, b.low), vdivq_f32(a.high, b.high)};
 }
-/// a b - c, fused or not: only for bounds with room for either.
+/// a b - c, fused or not: only for bounds that are wide enough for either.
 inline vfloat8 about_msub(vfloat8 a, vfloat8 b, vfloat8 c)
 {
     return a * b - c;
@@ -86,7 +87,7 @@ inline vfloat8 blend(vfloat8 sign, vfloat8 a, vfloat8 b)
             vbslq_f32(sign_mask(sign.high), b.high, a.high)};
 }
 /// Sign bits set where a <= b.
-inline vfloat8 at_most8(vfloat8 a, vfloat8 b)
+inline vfloat8 operator<=(vfloat8 a, vfloat8 b)
 {
     return {vreinterpretq_f32_u32(vcleq_f32(a.low, b.low)),
             vreinterpretq_f32_u32(vcleq_f32(a.high, b.high))};
@@ -105,7 +106,7 @@ inline float largest_of8(vfloat8 a)
     return vmaxvq_f32(vmaxq_f32(a.low, a.high));
 }
 
-/// Element i is what `op` makes of v[i]'s elements, such as the least of them.
+/// Element i is the reduction of the elements of v[i] by `op`, such as their minimum.
 template <class Op>
 inline vfloat8 reduce8(const vfloat8 (&v)[8], Op op)
 {
@@ -116,7 +117,7 @@ inline vfloat8 reduce8(const vfloat8 (&v)[8], Op op)
         const float32x4_t second = vcombine_f32(vget_high_f32(ab.low), vget_high_f32(ab.high));
         return op(vfloat8(first, first), vfloat8(second, second)).low;
     };
-    // Both halves of each first, then across them.
+    // Reduces the two halves of each v[i] first, then across the four elements left.
     float32x4_t half[8];
     for (int i = 0; i < 8; ++i)
         half[i] = op(vfloat8(v[i].low, v[i].low), vfloat8(v[i].high, v[i].high)).low;

@@ -2,7 +2,7 @@
 
 #include <cstdint>
 
-// Eight floats, the boxes of a node, one by one.
+// Eight floats for the eight boxes of a node, as an array.
 namespace packtrace::PACKTRACE_ISA {
 namespace {
 
@@ -17,7 +17,7 @@ struct vfloat8 {
     }
 };
 
-/// `op` of each element of two.
+/// `op` of each pair of elements.
 template <class Op>
 inline vfloat8 each8(const vfloat8& a, const vfloat8& b, const Op& op)
 {
@@ -56,7 +56,7 @@ inline vfloat8 operator/(const vfloat8& a, const vfloat8& b)
 {
     return each8(a, b, [](float x, float y) { return x / y; });
 }
-/// a b - c, fused or not: only for bounds with room for either.
+/// a b - c, fused or not: only for bounds that are wide enough for either.
 inline vfloat8 about_msub(const vfloat8& a, const vfloat8& b, const vfloat8& c)
 {
     return a * b - c;
@@ -84,7 +84,7 @@ inline vfloat8 blend(const vfloat8& sign, const vfloat8& a, const vfloat8& b)
     return result;
 }
 /// Sign bits set where a <= b.
-inline vfloat8 at_most8(const vfloat8& a, const vfloat8& b)
+inline vfloat8 operator<=(const vfloat8& a, const vfloat8& b)
 {
     return each8(a, b, [](float x, float y) { return x <= y ? -1.0f : 0.0f; });
 }
@@ -105,7 +105,7 @@ inline float largest_of8(const vfloat8& a)
     return most;
 }
 
-/// Element i is what `op` makes of v[i]'s elements, such as the least of them.
+/// Element i is the reduction of the elements of v[i] by `op`, such as their minimum.
 template <class Op>
 inline vfloat8 reduce8(const vfloat8 (&v)[8], Op op)
 {

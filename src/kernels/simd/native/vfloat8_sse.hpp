@@ -5,7 +5,8 @@
 #include <cstdint>
 #include <immintrin.h>
 
-// vfloat8 floats, whatever the packet width: the boxes of a node. Here in two SSE registers.
+// Eight floats, whatever the packet width, for the eight boxes of a node. Here they are in two SSE
+// registers.
 namespace packtrace::PACKTRACE_ISA {
 namespace {
 
@@ -54,7 +55,7 @@ inline vfloat8 operator/(vfloat8 a, vfloat8 b)
 {
     return {_mm_div_ps(a.low, b.low), _mm_div_ps(a.high, b.high)};
 }
-/// a b - c, fused or not: only for bounds with room for either.
+/// a b - c, fused or not: only for bounds that are wide enough for either.
 inline vfloat8 about_msub(vfloat8 a, vfloat8 b, vfloat8 c)
 {
     return a * b - c;
@@ -79,7 +80,7 @@ inline vfloat8 blend(vfloat8 sign, vfloat8 a, vfloat8 b)
     return {_mm_blendv_ps(a.low, b.low, sign.low), _mm_blendv_ps(a.high, b.high, sign.high)};
 }
 /// Sign bits set where a <= b.
-inline vfloat8 at_most8(vfloat8 a, vfloat8 b)
+inline vfloat8 operator<=(vfloat8 a, vfloat8 b)
 {
     return {_mm_cmple_ps(a.low, b.low), _mm_cmple_ps(a.high, b.high)};
 }
@@ -98,7 +99,7 @@ inline float largest_of8(vfloat8 a)
     return _mm_cvtss_f32(_mm_max_ss(most, _mm_movehdup_ps(most)));
 }
 
-/// Element i is what `op` makes of v[i]'s elements, such as the least of them.
+/// Element i is the reduction of the elements of v[i] by `op`, such as their minimum.
 template <class Op>
 inline vfloat8 reduce8(const vfloat8 (&v)[8], Op op)
 {
@@ -107,7 +108,7 @@ inline vfloat8 reduce8(const vfloat8 (&v)[8], Op op)
         const vfloat8 half = op(vfloat8(a, c), vfloat8(b, d));
         return op(vfloat8(half.low, half.low), vfloat8(half.high, half.high)).low;
     };
-    // Both halves of each first, then across them.
+    // Reduces the two halves of each v[i] first, then across the four elements left.
     __m128 half[8];
     for (int i = 0; i < 8; ++i)
         half[i] = op(vfloat8(v[i].low, v[i].low), vfloat8(v[i].high, v[i].high)).low;
