@@ -23,7 +23,7 @@ void packet_frame(benchmark::State& state, const std::string& isa, int threads)
     state.SetItemsProcessed(state.iterations() * rays);
 }
 
-/// Rays as the packets count them: the reference traces the same ones.
+/// The reference traces the same rays as the packets, which count them.
 template <class Real>
 void scalar_frame(benchmark::State& state, int threads)
 {

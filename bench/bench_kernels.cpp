@@ -15,7 +15,7 @@ namespace {
 
 constexpr int size = 1024;  ///< pixels along each edge, whole tiles
 
-/// All tiles of a scene, one after the other.
+/// Traces all tiles of a scene, one after the other.
 template <class Real>
 class ClosestHits {
 public:

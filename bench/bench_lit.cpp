@@ -1,5 +1,5 @@
-// Points that lights reach: RayScene::lit() against occluded() with rays to the light, for points
-// that camera rays hit and for those that their mirrored rays hit, which share no way to the light.
+// Which points a light reaches: RayScene::lit() against occluded() with rays to the light. Points
+// are hits of camera rays, and hits of their mirrored rays, whose shadow rays are spread.
 #include "names.hpp"
 #include "peers/ray_set.hpp"
 #include "register.hpp"
@@ -25,14 +25,17 @@ namespace {
 
 constexpr int edge = 512;
 
-/// So many have a light's own view built in all scenes here.
+/// After this many points all scenes here have built the light's buffer.
 constexpr std::size_t enough_points = 2'000'000;
+
+/// Shadow rays from the light end this much before the point.
+constexpr float end_gap = 1e-5f;
 
 using peers::RaySet;
 
 constexpr double endless_ray = std::numeric_limits<double>::infinity();
 
-/// What rays hit; misses are left out.
+/// The hits of rays, without the misses.
 struct Points {
     std::array<std::vector<float>, 3> point, normal, outer;
     std::vector<std::int32_t> surface;
@@ -82,7 +85,11 @@ RaySet mirrored_rays(const Points& points)
     return rays;
 }
 
-/// Points that one light may reach, by their surface's side.
+/// Where the points come from, and by which function they are tested.
+enum class Source { camera, mirrored };
+enum class Query { lit, occluded };
+
+/// The points whose surface faces one light.
 struct Asked {
     std::unique_ptr<RayScene<float>> scene;
     std::array<std::vector<float>, 3> point;
@@ -97,12 +104,12 @@ struct Asked {
     }
 };
 
-Asked ask(const Scene& scene, std::size_t light, bool mirrored)
+Asked ask(const Scene& scene, std::size_t light, Source source)
 {
     Asked asked;
     asked.scene = std::make_unique<RayScene<float>>(scene);
     Points points = points_of(*asked.scene, camera_rays(scene));
-    if (mirrored)
+    if (source == Source::mirrored)
         points = points_of(*asked.scene, mirrored_rays(points));
     const Light& from = scene.lights[light];
     const bool endless = from.type == LightType::directional;
@@ -113,12 +120,12 @@ Asked ask(const Scene& scene, std::size_t light, bool mirrored)
         for (std::size_t axis = 0; axis < 3; ++axis)
             asked.point[axis].push_back(points.point[axis][i]);
         asked.surface.push_back(points.surface[i]);
-        // From the light, where rays share their origin: so they are quickest.
+        // From the light: rays with a common origin are fastest.
         const Vec3 start = vector_at(points.outer, i);
         if (endless)
             asked.shadow_rays.add(start, from.vector, endless_ray);
         else
-            asked.shadow_rays.add(from.vector, start - from.vector, 1.0f - 1e-5f);
+            asked.shadow_rays.add(from.vector, start - from.vector, 1.0f - end_gap);
     }
     asked.mask.resize(asked.surface.size());
     return asked;
@@ -142,11 +149,12 @@ Scene lit_scene(const std::string& name)
     return scene;
 }
 
-void run(benchmark::State& state, const std::string& name, std::size_t light, bool mirrored,
-         bool by_lit)
+void run(benchmark::State& state, const std::string& name, std::size_t light, Source source,
+         Query query)
 {
-    Asked asked = ask(lit_scene(name), light, mirrored);
-    // A light's own view is built when enough points were asked about: here before time counts.
+    Asked asked = ask(lit_scene(name), light, source);
+    const bool by_lit = query == Query::lit;
+    // The light's buffer is built after enough points: here before the timed loop.
     for (std::size_t points = 0; by_lit && points < enough_points; points += asked.mask.size())
         asked.scene->lit(asked.points(), light, asked.mask.data());
     const RaysView<float> rays = asked.shadow_rays.view(0, asked.shadow_rays.size());
@@ -170,16 +178,16 @@ void run(benchmark::State& state, const std::string& name, std::size_t light, bo
 void register_lit()
 {
     for (const char* scene : {"four_spheres", "flake4", "flake5", "random10000", "random100000"})
-        for (const bool mirrored : {false, true})
+        for (const Source source : {Source::camera, Source::mirrored})
             for (const std::size_t light : {std::size_t{0}, std::size_t{1}})
-                for (const bool by_lit : {true, false})
+                for (const Query query : {Query::lit, Query::occluded})
                     benchmark::RegisterBenchmark(
                         benchmark_name({"lit", scene, light == 0 ? "point" : "directional",
-                                        mirrored ? "mirrored" : "camera",
-                                        by_lit ? "lit" : "occluded"})
+                                        source == Source::mirrored ? "mirrored" : "camera",
+                                        query == Query::lit ? "lit" : "occluded"})
                             .c_str(),
                         [=, name = std::string(scene)](benchmark::State& state) {
-                            run(state, name, light, mirrored, by_lit);
+                            run(state, name, light, source, query);
                         })
                         ->UseRealTime()
                         ->Unit(benchmark::kMillisecond);

@@ -9,8 +9,8 @@
 #include <string>
 #include <vector>
 
-// Systems per second, one thread. `bitsliced` starts from surfaces in memory, as the other solvers
-// do; `planes` only runs the kernel over bit planes that are ready.
+// Systems per second on one thread. `bitsliced` starts from surfaces in memory, like the other
+// solvers; `planes` only runs the kernel on bit planes in memory.
 namespace packtrace {
 namespace {
 

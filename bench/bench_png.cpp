@@ -1,4 +1,4 @@
-// What a picture file costs beside its rendering: note 001's scene at 1024 x 1024.
+// The cost of writing a picture beside rendering it: note 001's scene at 1024 x 1024.
 #include "image/formats.hpp"
 #include "png_picture.hpp"
 #include <packtrace/image_io.hpp>
@@ -14,7 +14,7 @@ namespace {
 
 using namespace bench;
 
-// The measure of the writers below; argument: threads.
+// Rendering, to compare the writers below with; argument: threads.
 void render_frame(benchmark::State& state)
 {
     const Renderer<float> renderer(scene(), {.threads = static_cast<int>(state.range(0))});
@@ -25,7 +25,7 @@ void render_frame(benchmark::State& state)
 }
 BENCHMARK(render_frame)->Arg(1)->Arg(2)->Apply(use_wall_and_cpu_time);
 
-// The whole of write_image, into a file.
+// write_image() as a whole, into a file.
 void write_png(benchmark::State& state)
 {
     const auto file = std::filesystem::temp_directory_path() / "packtrace_bench.png";
@@ -36,7 +36,7 @@ void write_png(benchmark::State& state)
 }
 BENCHMARK(write_png)->Apply(use_wall_and_cpu_time);
 
-// The file's bytes without writing them, whole by stb_image_write (0) or row by row by libpng (1).
+// Encoding without writing: the whole picture by stb_image_write (0), or row by row by libpng (1).
 void encode_png_bytes(benchmark::State& state)
 {
     PngSettings settings;

@@ -1,5 +1,5 @@
-// Moving spheres of a RayScene: refitting its hierarchy against building it anew, both from the
-// scene on, and closest hits by either hierarchy.
+// Moving spheres of a RayScene: refitting its BVH against building a new one, and closest hits with
+// either BVH.
 #include "names.hpp"
 #include "register.hpp"
 #include <packtrace/generate.hpp>
@@ -15,7 +15,7 @@ namespace {
 
 constexpr int spheres = 100'000;
 
-/// Spheres that go about at random by two thirds of their radius a step.
+/// Spheres that move at random, by two thirds of their radius in each step.
 class Swarm {
 public:
     Scene scene = generate_random_spheres({.count = spheres, .radius = 0.003});
@@ -76,8 +76,11 @@ std::vector<Ray<float>> rays_within(std::size_t count)
     return rays;
 }
 
-/// Closest hits after so many steps, in a hierarchy that was refitted all along or built at last.
-void trace(benchmark::State& state, int steps, bool fresh)
+enum class BvhState { refitted, built };
+
+/// Closest hits after `steps` steps, in a BVH that was refitted in each step or built after the
+/// last.
+void trace(benchmark::State& state, int steps, BvhState bvh)
 {
     Swarm swarm;
     RayScene<float> scene(swarm.scene);
@@ -87,14 +90,14 @@ void trace(benchmark::State& state, int steps, bool fresh)
         swarm.step();
         cost = scene.update(swarm.scene).cost;
     }
-    if (fresh)
+    if (bvh == BvhState::built)
         scene = RayScene<float>(swarm.scene);
     const auto rays = rays_within(20'000);
     std::vector<SurfaceHit<float>> hits(rays.size());
     for (auto _ : state)
         scene.closest_hits(rays, hits);
     state.SetItemsProcessed(state.iterations() * static_cast<std::int64_t>(rays.size()));
-    state.counters["cost"] = fresh ? 1.0 : cost;
+    state.counters["cost"] = bvh == BvhState::built ? 1.0 : cost;
 }
 
 }  // namespace
@@ -109,10 +112,10 @@ void register_updates()
     add("refit", refit);
     add("build", build);
     for (const int steps : {10, 30, 100})
-        for (const bool fresh : {false, true})
-            add("trace/" + std::string(fresh ? "built" : "refitted") +
+        for (const BvhState bvh : {BvhState::refitted, BvhState::built})
+            add("trace/" + std::string(bvh == BvhState::built ? "built" : "refitted") +
                     "/steps:" + std::to_string(steps),
-                [steps, fresh](benchmark::State& state) { trace(state, steps, fresh); });
+                [steps, bvh](benchmark::State& state) { trace(state, steps, bvh); });
 }
 
 }  // namespace packtrace::bench

@@ -8,7 +8,7 @@
 
 namespace packtrace::bench {
 
-/// Parts of a benchmark's name, joined as Google Benchmark joins arguments to them.
+/// Joins the parts of a benchmark's name as Google Benchmark joins arguments.
 [[nodiscard]] inline std::string benchmark_name(std::initializer_list<std::string> parts)
 {
     std::string name;

@@ -19,7 +19,7 @@ inline const Scene& scene()
     return scene;
 }
 
-/// What it looks like.
+/// The picture of that scene.
 inline const Image<float>& picture()
 {
     static const Image<float> image = [] {

@@ -1,6 +1,6 @@
-// packtrace_power_error: writes the error of the highlights' power against long double as JSON,
-// by instruction set, precision and decade of the exponent; errors count in units of the last
-// place over powers above 1e-4.
+// packtrace_power_error: writes the errors of the highlights' power as JSON, compared with long
+// double, by instruction set, precision and decade of the exponent. Errors are in units of the last
+// place, of powers above 1e-4.
 #include "power_error.hpp"
 
 #include "context.hpp"

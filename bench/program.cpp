@@ -10,10 +10,10 @@
 namespace packtrace::bench {
 namespace {
 
-/// An argument whose name has no dashes must be given, whatever else says so.
-CLI::Option* required_as_named(CLI::Option* option, bool required = false)
+/// Makes an option required by `need`; positional arguments are always required.
+CLI::Option* with_need(CLI::Option* option, Need need = Need::optional)
 {
-    return option->required(required || option->get_positional());
+    return option->required(need == Need::required || option->get_positional());
 }
 
 template <class Number>
@@ -36,7 +36,7 @@ CLI::Validator in_range(const Range<Number>& range)
 }  // namespace
 
 struct Program::Parser {
-    std::unique_ptr<CLI::App> own;  ///< null for a command, which its program's owns
+    std::unique_ptr<CLI::App> own;  ///< null for a subcommand, which the program's App owns
     CLI::App* app;
 };
 
@@ -59,16 +59,15 @@ void Program::flag(const std::string& name, bool& value, const std::string& help
     parser_->app->add_flag(name, value, help);
 }
 
-void Program::text(const std::string& name, std::string& value, const std::string& help,
-                   bool required)
+void Program::text(const std::string& name, std::string& value, const std::string& help, Need need)
 {
-    required_as_named(parser_->app->add_option(name, value, help), required);
+    with_need(parser_->app->add_option(name, value, help), need);
 }
 
 void Program::words(const std::string& name, std::vector<std::string>& value,
                     const std::string& help, const std::vector<std::string>& allowed)
 {
-    CLI::Option* const option = required_as_named(parser_->app->add_option(name, value, help));
+    CLI::Option* const option = with_need(parser_->app->add_option(name, value, help));
     if (!allowed.empty())
         option->check(CLI::IsMember(allowed));
     option->delimiter(',');
@@ -78,16 +77,14 @@ template <class Number>
 void Program::number(const std::string& name, Number& value, const Range<Number>& range,
                      const std::string& help)
 {
-    required_as_named(parser_->app->add_option(name, value, help))->check(in_range(range));
+    with_need(parser_->app->add_option(name, value, help))->check(in_range(range));
 }
 
 template <class Number>
 void Program::numbers(const std::string& name, std::vector<Number>& value,
                       const Range<Number>& range, const std::string& help)
 {
-    required_as_named(parser_->app->add_option(name, value, help))
-        ->check(in_range(range))
-        ->delimiter(',');
+    with_need(parser_->app->add_option(name, value, help))->check(in_range(range))->delimiter(',');
 }
 
 template void Program::number(const std::string&, int&, const Range<int>&, const std::string&);

@@ -7,16 +7,19 @@
 
 namespace packtrace::bench {
 
-/// Which numbers an option takes.
+/// The range of an option's numbers.
 template <class Number>
 struct Range {
     Number low;
     Number high;
-    int step = 1;  ///< whole numbers are multiples of it
+    int step = 1;  ///< whole numbers must be multiples of it
 };
 
-/// A program's command line, and how it ends. CLI11 stays behind it: it leaves a hundred kilobytes
-/// of code in each source that includes it.
+/// Whether an option must be given.
+enum class Need { optional, required };
+
+/// A program's command line and exit codes. It hides CLI11, which adds a hundred kilobytes of code
+/// to each source that includes it.
 class Program {
 public:
     Program(std::string name, const std::string& purpose);
@@ -24,13 +27,13 @@ public:
     Program& operator=(const Program&) = delete;
     ~Program();
 
-    // What the command line sets; a value keeps what it has where the option is not given. Names
-    // without dashes are those of arguments that must be given, in their order. Lists are parted by
-    // commas. `Number` is int or double.
+    // Options. A value is not changed if its option is not given. Names without dashes are
+    // positional arguments, which must be given in order. Lists are separated by commas. `Number`
+    // is int or double.
     void flag(const std::string& name, bool& value, const std::string& help);
     void text(const std::string& name, std::string& value, const std::string& help,
-              bool required = false);
-    /// Of no `allowed` words all are.
+              Need need = Need::optional);
+    /// Empty `allowed` allows all words.
     void words(const std::string& name, std::vector<std::string>& value, const std::string& help,
                const std::vector<std::string>& allowed = {});
     template <class Number>
@@ -40,15 +43,15 @@ public:
     void numbers(const std::string& name, std::vector<Number>& value, const Range<Number>& range,
                  const std::string& help);
 
-    /// One of the things that a program does, with options of its own; one of them must be given.
+    /// Adds a subcommand with its own options. If there are subcommands, one must be given.
     Program& command(const std::string& name, const std::string& purpose,
                      std::function<void()> work);
 
-    /// Parses the arguments and does the work, of a command's its own; returns what main() does:
-    /// 2 for arguments that are wrong, 1 where the work throws, which is printed behind the name.
+    /// Parses the arguments, and does the work or that of the subcommand. Returns the exit code: 2
+    /// for wrong arguments, 1 if the work throws; then it prints the error.
     [[nodiscard]] int run(int argc, const char* const* argv, std::function<void()> work = {});
 
-    /// The name and the arguments that run() was given.
+    /// The name and the arguments of run().
     [[nodiscard]] const std::string& command_line() const;
 
 private:

@@ -2,7 +2,7 @@
 
 namespace packtrace::bench {
 
-/// Each registers the benchmarks of one file.
+/// Each function registers the benchmarks of one file.
 void register_kernels();
 void register_frames();
 void register_power();

@@ -1,4 +1,4 @@
-// Polygons: reading and writing them, and what is made of them.
+// Reading, writing and packing polygons.
 #include "catch.hpp"
 #include "lower/packed_lists.hpp"
 #include "lower/prune.hpp"
@@ -56,7 +56,7 @@ TEST_CASE("a polygon of ten thousand corners is read", "[polygons]")
     CHECK(std::get<Polygon>(parse(text + " }").objects[0].surface).contours[0].size() == 10'000);
 }
 
-TEST_CASE("polygons that are none are refused with what is wrong", "[polygons]")
+TEST_CASE("invalid polygons are refused with what is wrong", "[polygons]")
 {
     CHECK(
         error_of("polygon { }") ==
@@ -91,7 +91,7 @@ TEST_CASE("polygons that are none are refused with what is wrong", "[polygons]")
                       ContainsSubstring("the polygon has no vertices"));
 }
 
-TEST_CASE("what is left of a corner by seven digits is flat", "[polygons]")
+TEST_CASE("a polygon whose corners are rounded to seven digits counts as flat", "[polygons]")
 {
     PolygonRandom random(5);
     for (int i = 0; i < 100; ++i) {
@@ -112,7 +112,7 @@ TEST_CASE("polygons are packed by their corners in the world", "[polygons]")
     Object object = star();
     object.transform = some_transform(random);
     const LoweredScene lowered = lower(polygon_scene({cube_faces()[0], object}));
-    const PackedLists<float> lists(lowered, false);
+    const PackedLists<float> lists(lowered, Listed::all);
     abi::GeometryView<float> view;
     lists.show(view);
     REQUIRE(view.polygons.count == 2);
@@ -132,7 +132,7 @@ TEST_CASE("polygons are packed by their corners in the world", "[polygons]")
     }
 }
 
-TEST_CASE("a polygon in another's very place is found", "[polygons]")
+TEST_CASE("a coincident copy of a polygon is found", "[polygons]")
 {
     Object other = star();
     std::get<Polygon>(other.surface).contours.pop_back();

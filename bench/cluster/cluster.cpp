@@ -1,5 +1,5 @@
-// packtrace_cluster: what results/cluster.py fits its model of many ranks by, and the model. Both
-// print JSON.
+// packtrace_cluster: the measurements for the model of many ranks in results/cluster.py, and the
+// model. Both print JSON.
 #include "cli/render/render_bands.hpp"
 #include "core/seconds_since.hpp"
 #include "job_model.hpp"
@@ -35,8 +35,11 @@ struct BandArguments {
     int bands = 64;
 };
 
-/// Renders some bands of a picture, spread over it, on one thread. Writes them, again and again, as
-/// a file so large that its rows are written one by one.
+/// A file with more bytes is written row by row (largest_whole in image/formats.hpp).
+constexpr std::size_t beyond_whole = std::size_t{144} << 20;
+
+/// Renders some bands of a picture, spread over it, on one thread. Writes them again and again,
+/// into a file so large that it is written row by row.
 Json measure_bands(const BandArguments& arguments)
 {
     Scene scene = read_scene(arguments.scene);
@@ -49,7 +52,7 @@ Json measure_bands(const BandArguments& arguments)
     const int count = std::min(arguments.bands, bands.count());
     const std::size_t band_bytes = samples.row_bytes() * static_cast<std::size_t>(bands.rows);
 
-    // The first one pays for memory and threads.
+    // The first band allocates memory and starts threads.
     std::vector<Bytes> rendered(static_cast<std::size_t>(count), Bytes(band_bytes));
     render(bands.band(0), rendered[0]);
     Json work = Json::array();
@@ -60,7 +63,6 @@ Json measure_bands(const BandArguments& arguments)
             seconds_of([&] { render(bands.band(number), rendered[static_cast<std::size_t>(i)]); }));
     }
 
-    constexpr std::size_t beyond_whole = std::size_t{144} << 20;
     const auto written = static_cast<int>(
         std::max<std::size_t>(beyond_whole / band_bytes, static_cast<std::size_t>(count)));
     const double writing = seconds_of([&] {
@@ -75,7 +77,7 @@ Json measure_bands(const BandArguments& arguments)
             {"work_seconds", work}};
 }
 
-/// Runs of one job on several numbers of ranks.
+/// Simulates one job on several numbers of ranks.
 Json simulate(const Json& asked)
 {
     const auto profile = asked.at("work_seconds").get<std::vector<double>>();
@@ -118,7 +120,7 @@ int main(int argc, char** argv)
         std::cout << measure_bands(arguments).dump(1) << '\n';
     });
     bands.text("SCENE", arguments.scene, "Scene file");
-    bands.text("-o", arguments.output, "Picture to write, .png or .pfm", true);
+    bands.text("-o", arguments.output, "Picture to write, .png or .pfm", Need::required);
     bands.number("--size", arguments.size, {1, 65536}, "Edge of the picture in pixels");
     bands.number("--bands", arguments.bands, {1, 65536}, "How many to render");
     program.command("model", "Simulate a job that standard input describes",

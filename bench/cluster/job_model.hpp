@@ -11,27 +11,27 @@
 #include <utility>
 #include <vector>
 
-// What a job of packtrace-mpi takes on many ranks, by simulation: the hand-out is the program's
-// own, what work and messages take is given.
+// Simulates a job of packtrace-mpi on many ranks. It distributes the work with the program's own
+// code; the times of work and messages are given.
 namespace packtrace::bench {
 
-/// What a job consists of, in seconds and bytes.
+/// A job, in seconds and bytes.
 struct ModelJob {
     int ranks = 1;
     int pieces = 1;
     std::function<double(int piece)> work;  ///< to make a piece
     double piece_bytes = 0.0;               ///< sent to rank 0; 0: pieces stay where they are made
-    double write = 0.0;                     ///< on rank 0, by its own thread, to write a piece
+    double write = 0.0;                     ///< to write a piece, on a thread of rank 0
     double latency = 0.0;                   ///< of a message
     double bytes_per_second = 1.0;          ///< that rank 0 receives
-    double ask = 0.0;      ///< for a number, besides two latencies: threads that wake each other
-    double counter = 0.0;  ///< of the shared counter, for a number
+    double ask = 0.0;      ///< to get a number, besides two latencies: threads that wake each other
+    double counter = 0.0;  ///< of the shared counter, for each number
 };
 
-/// What it took. Busy seconds of rank 0's parts, of which each does one thing at a time.
+/// The result of a simulation. Rank 0 has three parts, each of which does one thing at a time.
 struct ModelRun {
     double seconds = 0.0;
-    double working = 0.0;  ///< of all ranks together
+    double working = 0.0;  ///< seconds of work, of all ranks together
     double counter_busy = 0.0;
     double link_busy = 0.0;
     double writer_busy = 0.0;
@@ -66,7 +66,7 @@ private:
     enum class What { asks, gets_number, ends_work, is_announced, is_received, is_written };
     struct Event {
         double time;
-        std::uint64_t order;  ///< of events at one time
+        std::uint64_t order;  ///< of events at the same time
         What what;
         int rank;
         int piece;
@@ -78,7 +78,7 @@ private:
     };
     struct Rank {
         int on_their_way = 0;
-        int waiting_piece = -1;  ///< made, but there is no room for it yet
+        int waiting_piece = -1;  ///< a piece that rank 0 has no room for yet; -1: none
     };
 
     [[nodiscard]] bool comes_here() const
@@ -121,7 +121,7 @@ private:
         at(now_ + latency_of(rank), What::asks, rank, 0);
     }
 
-    /// The counter serves one after the other.
+    /// The counter serves one rank after the other.
     void count(int rank)
     {
         counter_free_ = std::max(counter_free_, now_) + job_.counter;
@@ -161,7 +161,7 @@ private:
         go_on();
     }
 
-    /// Bytes are here, and their sender hears so.
+    /// A piece has arrived, and its sender is told.
     void receive(int rank, int piece)
     {
         window_.arrive(piece);
@@ -172,7 +172,7 @@ private:
             at(now_ + job_.latency, What::ends_work, rank, std::exchange(state.waiting_piece, -1));
     }
 
-    /// What rank 0 does once it may.
+    /// Starts what rank 0 can do now: write, hand over its own piece, or receive.
     void go_on()
     {
         if (!writes_ && window_.ready()) {
@@ -204,7 +204,7 @@ private:
     double now_ = 0.0;
     int next_number_ = 0;
     double counter_free_ = 0.0;
-    std::map<int, int> announced_;  ///< ranks by the pieces that they have sent word of
+    std::map<int, int> announced_;  ///< ranks by the pieces that they have announced
     bool receives_ = false;
     bool writes_ = false;
     bool first_waits_ = false;

@@ -1,4 +1,5 @@
-// packtrace_cluster_messages: what two ranks of MPI take to talk, as JSON, for results/cluster.py.
+// packtrace_cluster_messages: the times of messages between two MPI ranks, as JSON, for
+// results/cluster.py.
 #include "core/seconds_since.hpp"
 #include "mpi/job.hpp"
 
@@ -13,7 +14,7 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-/// A message goes from rank 0 to rank 1 and back, and so on. Seconds of one way.
+/// Seconds of one message, by sending messages from rank 0 to rank 1 and back.
 double one_way(const World& world, int bytes, int times)
 {
     std::vector<char> text(static_cast<std::size_t>(bytes));
@@ -34,7 +35,7 @@ double one_way(const World& world, int bytes, int times)
     return seconds_since(start) / (2.0 * times);
 }
 
-/// Numbers that rank 1 takes while rank 0 waits within MPI, as fast as they come.
+/// Seconds for rank 1 to take a number from the counter while rank 0 waits inside MPI.
 double counter_seconds(const World& world, int times)
 {
     Counter counter(world);
@@ -49,11 +50,11 @@ double counter_seconds(const World& world, int times)
     return seconds;
 }
 
-/// Numbers that rank 1 takes in a job, with the threads that this takes and with naps of rank 0.
+/// The same in a job, with the job's threads, and with rank 0 sleeping between its turns.
 double job_seconds(const World& world, int times)
 {
     double seconds = 0.0;
-    // As between machines.
+    // As if the ranks were on two machines.
     Job job(world, 0, 0, Link::network);
     (void)job.run([&](const Job::Next& next, RankReport&) {
         if (world.is_first())

@@ -1,4 +1,4 @@
-// What leaving things out saves: frames by each scene's own kernel and by the general one, in turns
+// What special kernels save: frames by each scene's special kernel and by the general one, by turns
 // on one thread.
 #include "core/atomic_file.hpp"
 #include "dispatch/kernels.hpp"
@@ -33,23 +33,28 @@ struct Arguments {
     int repetitions = 15;
 };
 
-/// One way to render a scene, with the times it took.
+/// Frames are repeated for this many seconds, so that the clock is exact enough.
+constexpr double least_seconds = 0.05;
+
+enum class Chosen { special, general };
+
+/// A scene with one kernel, and the times of its frames.
 class Frames {
 public:
-    Frames(const Scene& scene, const std::string& isa, bool general)
-        : renderer_(scene, options_of(isa, general))
+    Frames(const Scene& scene, const std::string& isa, Chosen kernel)
+        : renderer_(scene, options_of(isa, kernel))
     {
         (void)renderer_.render(image_);
     }
 
-    /// The mean of as many frames as take some milliseconds.
+    /// Adds the mean time of some frames.
     void time()
     {
         using Clock = std::chrono::steady_clock;
         const auto start = Clock::now();
         double seconds = 0.0;
         int frames = 0;
-        for (; seconds < 0.05; ++frames) {
+        for (; seconds < least_seconds; ++frames) {
             (void)renderer_.render(image_);
             seconds = std::chrono::duration<double>(Clock::now() - start).count();
         }
@@ -67,9 +72,9 @@ public:
     }
 
 private:
-    static RenderOptions options_of(const std::string& isa, bool general)
+    static RenderOptions options_of(const std::string& isa, Chosen kernel)
     {
-        return {.isa = isa, .force_general = general, .threads = 1};
+        return {.isa = isa, .force_general = kernel == Chosen::general, .threads = 1};
     }
 
     Renderer<float> renderer_;
@@ -88,8 +93,8 @@ Json measure(const std::string& file, const Arguments& arguments, const std::str
 {
     Scene scene = read_scene(file);
     scene.width = scene.height = arguments.size;
-    Frames special(scene, isa, false);
-    Frames general(scene, isa, true);
+    Frames special(scene, isa, Chosen::special);
+    Frames general(scene, isa, Chosen::general);
     for (int i = 0; i < arguments.repetitions; ++i) {
         special.time();
         general.time();
@@ -116,7 +121,7 @@ void print(const Json& row)
     std::fflush(stdout);
 }
 
-/// Throws where a scene's two pictures differ.
+/// Throws if a scene's two pictures differ.
 void run(const Arguments& arguments)
 {
     const std::string isa = choose_isa(arguments.isa).name;

@@ -10,7 +10,7 @@ namespace {
 constexpr double tolerance = 1e-4;  ///< of t
 constexpr double ground_radius = 100.0;
 
-/// What one side says of one ray, beside the truth.
+/// One side's answer to a ray, with the truth.
 struct Claim {
     std::int32_t object;
     double t;
@@ -28,7 +28,7 @@ Claim claim_of(const Scene& scene, const RaySet& rays, const Hits& hits, std::si
             sphere.radius > ground_radius};
 }
 
-/// Its object is not met at all, or one met earlier is known.
+/// Whether the ray misses the claim's object, or hits that of the other claim earlier.
 bool is_wrong(const Claim& claim, const Claim& other)
 {
     if (claim.object >= 0 && std::isinf(claim.true_t))

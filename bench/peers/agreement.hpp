@@ -7,23 +7,24 @@
 
 namespace packtrace::peers {
 
-/// How two sides' closest hits of the same rays differ, and which side is right by the distance
-/// in double precision. A sphere of radius above 100, the ground of note 001, is counted apart:
-/// single precision is short of digits there.
+/// How two sides' closest hits of the same rays differ. The true distance in double precision
+/// decides which side is right. Hits of spheres with a radius above 100, such as note 001's ground,
+/// are counted separately: single precision has too few digits for them.
 struct Agreement {
     std::size_t rays = 0;
     std::size_t hit_by_both = 0;
-    /// Other object or hit against miss, the true distances being apart by more than 1e-4 of them.
+    /// Different objects, or hit and miss, with true distances that differ by more than 1e-4 of
+    /// them.
     std::size_t objects_differ = 0;
-    std::size_t objects_differ_on_ground = 0;  ///< not counted in the line above
-    std::size_t ties = 0;                      ///< other object, at the same distance
-    std::size_t ours_wrong = 0;                ///< of those that differ, ground included
-    std::size_t theirs_wrong = 0;              ///< of the same
-    /// Same object, t apart by more than 1e-4 of it.
+    std::size_t objects_differ_on_ground = 0;  ///< not in the count above
+    std::size_t ties = 0;                      ///< different objects at the same distance
+    std::size_t ours_wrong = 0;                ///< of all that differ, with the ground
+    std::size_t theirs_wrong = 0;              ///< the same
+    /// Same object, with t that differ by more than 1e-4 of them.
     std::size_t distances_differ = 0;
     std::size_t distances_differ_on_ground = 0;
-    double our_largest_error = 0.0;    ///< |t - true t| / true t over all hits but the ground's
-    double their_largest_error = 0.0;  ///< of the same
+    double our_largest_error = 0.0;    ///< of |t - true t| / true t, without hits of the ground
+    double their_largest_error = 0.0;  ///< the same
 };
 
 [[nodiscard]] Agreement compare_closest(const Scene& scene, const RaySet& rays, const Hits& ours,

@@ -15,8 +15,8 @@ namespace {
 
 struct Build {
     double seconds = 0.0;
-    double bytes = 0.0;       ///< held when it is done
-    double peak_bytes = 0.0;  ///< 0 where it is not known
+    double bytes = 0.0;       ///< held after the build
+    double peak_bytes = 0.0;  ///< 0 if unknown
 };
 
 Build build_embree(const std::vector<SphereRecord>& spheres, Geometry geometry, int threads)
@@ -24,7 +24,7 @@ Build build_embree(const std::vector<SphereRecord>& spheres, Geometry geometry, 
     const EmbreeScene scene(spheres, geometry, threads);
     double bytes = static_cast<double>(scene.bytes());
     double peak = static_cast<double>(scene.peak_bytes());
-    // The callback reads the caller's own array, which sphere geometry has copied.
+    // The callbacks of user geometry read the caller's array; sphere geometry has a copy.
     if (geometry == Geometry::user) {
         bytes += static_cast<double>(spheres.size() * sizeof(SphereRecord));
         peak += static_cast<double>(spheres.size() * sizeof(SphereRecord));

@@ -8,8 +8,8 @@
 
 namespace packtrace::peers {
 
-/// Seconds and bytes an object of making a scene ready for rays, Embree's two geometries and
-/// packtrace, with each number of threads; medians over `repetitions`, interleaved.
+/// Seconds and bytes per object to prepare a scene for rays, with Embree's two geometries and with
+/// packtrace, for each number of threads; medians of `repetitions` builds by turns.
 [[nodiscard]] nlohmann::ordered_json measure_builds(const Scene& scene, int repetitions);
 
 }  // namespace packtrace::peers

@@ -17,7 +17,7 @@ CameraTiles::CameraTiles(const Scene& scene, const std::string& isa, Accuracy ac
       width_(scene.width),
       height_(scene.height)
 {
-    // As every other tracer of this program.
+    // As for all other tracers of this program.
     camera_.t_min = 0.0F;
     job_.scene = &packed_.view();
     job_.camera = &camera_;
@@ -26,7 +26,7 @@ CameraTiles::CameraTiles(const Scene& scene, const std::string& isa, Accuracy ac
 
 double CameraTiles::trace(Hits& hits)
 {
-    // A row of tiles at a time, so that looking at the clock costs nothing.
+    // Times a row of tiles at once, so that reading the clock takes no noticeable time.
     std::vector<abi::TileHits<float>> row(static_cast<std::size_t>(width_ / tile_size));
     PassTimer watch;
     std::size_t first = 0;

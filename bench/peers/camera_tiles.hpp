@@ -11,7 +11,7 @@
 
 namespace packtrace::peers {
 
-/// Closest hits of camera rays as the renderer finds them, tile by tile.
+/// Closest hits of camera rays, tile by tile, as in the renderer.
 class CameraTiles {
 public:
     CameraTiles(const Scene& scene, const std::string& isa, Accuracy accuracy);

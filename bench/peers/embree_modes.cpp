@@ -12,8 +12,8 @@ namespace {
 
 using Scene = std::shared_ptr<const EmbreeScene>;
 
-// Packets are marked inactive by their rays' limits, so that all lanes are valid.
-// Embree loads a packet of them at once.
+// All lanes are valid: inactive lanes hold rays that end before they begin. Aligned, as Embree
+// loads a packet of them at once.
 alignas(64) constexpr std::array<int, 16> all_valid = {-1, -1, -1, -1, -1, -1, -1, -1,
                                                        -1, -1, -1, -1, -1, -1, -1, -1};
 
@@ -25,7 +25,7 @@ RTCIntersectContext context_of(RTCIntersectContextFlags flags)
     return context;
 }
 
-/// One call a packet.
+/// One call for each packet.
 template <int lanes>
 struct PacketCalls {
     static void trace(RTCScene scene, RTCIntersectContext& context, Query query,
@@ -81,7 +81,7 @@ double trace_packets(const Scene& scene, RTCIntersectContextFlags flags, const R
     return watch.seconds();
 }
 
-/// Rays in arrays, as packtrace takes them; Embree writes into them, so each chunk is a copy.
+/// Rays in arrays, as for packtrace. Embree writes into them, so each chunk is a copy.
 class Arrays {
 public:
     void fill(const RaySet& rays, std::size_t first, std::size_t count)
@@ -168,7 +168,7 @@ using Trace = double (*)(const Scene&, RTCIntersectContextFlags, const RaySet&, 
 struct Mode {
     const char* name;
     Trace trace;
-    bool quick;  ///< among the best, mostly
+    bool quick;  ///< it is among the best in most races
 };
 
 constexpr Mode modes[] = {
@@ -188,22 +188,23 @@ constexpr std::pair<const char*, RTCIntersectContextFlags> flag_names[] = {
 
 }  // namespace
 
-std::vector<Tracer> embree_tracers(const Scene& scene, Geometry geometry, bool quick)
+std::vector<Tracer> embree_tracers(const Scene& scene, Geometry geometry, Modes which)
 {
     std::vector<Tracer> tracers;
     for (const Mode& mode : modes)
         for (const auto& [flag_name, flags] : flag_names) {
             const bool single = std::string(mode.name) == "1";
             const bool sphere = geometry == Geometry::sphere;
-            if (quick && (!mode.quick || sphere || (single && flag_name[0] == 'c')))
+            if (which == Modes::quick &&
+                (!mode.quick || sphere || (single && flags == RTC_INTERSECT_CONTEXT_FLAG_COHERENT)))
                 continue;
-            tracers.push_back(
-                {std::string("embree ") + name_of(geometry) + ' ' + mode.name + ' ' + flag_name,
-                 sphere ? Side::embree_sphere : Side::embree_user, false,
-                 [=, trace = mode.trace, flags = flags](const RaySet& rays, Query query,
-                                                        Hits& hits) {
-                     return trace(scene, flags, rays, query, hits);
-                 }});
+            tracers.push_back({.name = std::string("embree ") + name_of(geometry) + ' ' +
+                                       mode.name + ' ' + flag_name,
+                               .side = sphere ? Side::embree_sphere : Side::embree_user,
+                               .trace = [=, trace = mode.trace, flags = flags](
+                                            const RaySet& rays, Query query, Hits& hits) {
+                                   return trace(scene, flags, rays, query, hits);
+                               }});
         }
     return tracers;
 }

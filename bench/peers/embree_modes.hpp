@@ -8,10 +8,12 @@
 
 namespace packtrace::peers {
 
-/// Every way of Embree's to trace rays through one scene: single rays, packets of 4, 8 and 16,
-/// streams of single rays, of packets and of arrays; each flagged coherent and incoherent.
-/// `quick`: those that win most often.
+/// Which of Embree's modes are raced: all, or those that win most often.
+enum class Modes { all, quick };
+
+/// Embree's modes of tracing rays through one scene: single rays, packets of 4, 8 and 16, streams
+/// of single rays, of packets and of arrays; each flagged coherent and incoherent.
 [[nodiscard]] std::vector<Tracer> embree_tracers(const std::shared_ptr<const EmbreeScene>& scene,
-                                                 Geometry geometry, bool quick);
+                                                 Geometry geometry, Modes which);
 
 }  // namespace packtrace::peers

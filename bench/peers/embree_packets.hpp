@@ -45,13 +45,14 @@ PACKTRACE_PACKET_OF(8);
 PACKTRACE_PACKET_OF(16);
 #undef PACKTRACE_PACKET_OF
 
-/// Room for `count` rays as packets of so many lanes; the last packet's spare lanes hold rays
-/// that end before they begin, which Embree takes for inactive.
+/// Packets of `lanes` rays. Unused lanes of the last packet hold rays that end before they begin,
+/// which are inactive for Embree.
 template <int lanes>
 class Packets {
 public:
     using RayHit = typename PacketOf<lanes>::RayHit;
 
+    /// With room for `most` rays.
     explicit Packets(std::size_t most) : packets_((most + lanes - 1) / lanes)
     {
     }
@@ -61,7 +62,10 @@ public:
         count_ = (count + lanes - 1) / lanes;
         for (std::size_t p = 0; p < count_; ++p)
             for (std::size_t lane = 0; lane < lanes; ++lane)
-                set(packets_[p], lane, rays, first + p * lanes + lane, p * lanes + lane < count);
+                if (p * lanes + lane < count)
+                    set_ray(packets_[p], lane, rays, first + p * lanes + lane);
+                else
+                    set_inactive(packets_[p], lane);
     }
 
     void read_closest(std::size_t first, std::size_t count, Hits& hits) const
@@ -92,7 +96,7 @@ public:
     }
 
 private:
-    // Every layout of Embree's is a list of components, each of all lanes.
+    // All of Embree's packets are lists of components, each for all lanes.
     static float* components(RayHit& packet)
     {
         return reinterpret_cast<float*>(&packet);
@@ -102,17 +106,33 @@ private:
         return reinterpret_cast<const float*>(&packet);
     }
 
-    static void set(RayHit& packet, std::size_t lane, const RaySet& rays, std::size_t i,
-                    bool active)
+    static void set_ray(RayHit& packet, std::size_t lane, const RaySet& rays, std::size_t i)
     {
         float* to = components(packet) + lane;
         for (std::size_t axis = 0; axis < 3; ++axis) {
-            to[axis * lanes] = active ? rays.org[axis][i] : 0.0F;
-            to[(4 + axis) * lanes] = active ? rays.dir[axis][i] : 1.0F;
+            to[axis * lanes] = rays.org[axis][i];
+            to[(4 + axis) * lanes] = rays.dir[axis][i];
         }
-        to[3 * lanes] = active ? rays.t_min[i] : 0.0F;
+        to[3 * lanes] = rays.t_min[i];
+        to[8 * lanes] = rays.t_max[i];
+        set_rest(to);
+    }
+
+    static void set_inactive(RayHit& packet, std::size_t lane)
+    {
+        float* to = components(packet) + lane;
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            to[axis * lanes] = 0.0F;
+            to[(4 + axis) * lanes] = 1.0F;
+        }
+        to[3 * lanes] = 0.0F;
+        to[8 * lanes] = -1.0F;
+        set_rest(to);
+    }
+
+    static void set_rest(float* to)
+    {
         to[7 * lanes] = 0.0F;  // time
-        to[8 * lanes] = active ? rays.t_max[i] : -1.0F;
         auto* ids = reinterpret_cast<unsigned*>(to);
         ids[9 * lanes] = ~0U;  // mask
         ids[10 * lanes] = 0;   // id

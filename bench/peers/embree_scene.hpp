@@ -9,17 +9,17 @@
 
 namespace packtrace::peers {
 
-/// How Embree is told of the spheres.
+/// How Embree gets the spheres: as its own primitives, or as user geometry with callbacks.
 enum class Geometry { sphere, user };
 [[nodiscard]] const char* name_of(Geometry geometry);
 
-/// The spheres of a scene as Embree takes them. Throws std::runtime_error for other objects.
+/// The spheres of a scene as records for Embree. Throws std::runtime_error for other objects.
 [[nodiscard]] std::vector<SphereRecord> sphere_records(const Scene& scene);
 
-/// A committed scene of Embree's and how it was built. `spheres` must outlive it.
+/// A committed scene of Embree, with the time and memory of its build. `spheres` must outlive it.
 class EmbreeScene {
 public:
-    /// Threads of the build; 0 for all. Throws std::runtime_error when Embree refuses.
+    /// Builds on `threads` threads; 0 for all. Throws std::runtime_error if Embree fails.
     EmbreeScene(const std::vector<SphereRecord>& spheres, Geometry geometry, int threads = 0);
     ~EmbreeScene();
     EmbreeScene(const EmbreeScene&) = delete;
@@ -33,7 +33,7 @@ public:
     {
         return build_seconds_;
     }
-    /// What Embree's own account of memory rose to, and holds now; its copy of spheres included.
+    /// Embree's largest and present memory by its own account, with its copy of spheres.
     [[nodiscard]] std::ptrdiff_t peak_bytes() const;
     [[nodiscard]] std::ptrdiff_t bytes() const;
 

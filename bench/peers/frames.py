@@ -29,13 +29,13 @@ SCENES = {
     "flake6": FLAKE + ["6"],
     "random100k": ["random", "--count", "100000", "--radius", "0.005", "--reflective", "0.5"],
 }
-# Where in a pixel each takes its one sample, from the left and top edge: POV-Ray in the middle,
-# Tachyon, as comparing pictures shows, at the right and top.
+# The place of each tracer's sample in a pixel, from the left and top edge: POV-Ray's is the middle,
+# Tachyon's is at the right and top, as a comparison of pictures shows.
 SAMPLES = {"povray": "(0.5, 0.5)", "tachyon": "(1, 0)"}
 
 
 def run(command):
-    """What a command prints, both streams; ends the program when it fails."""
+    """The output of a command on both streams; ends the program if the command fails."""
     done = subprocess.run(command, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True,
                           errors="replace")
     if done.returncode != 0:
@@ -91,7 +91,7 @@ class Frames:
     def time_tachyon(self, name, extra=("-nosave",)):
         output = run(["tachyon", self.folder / f"{name}.dat", "-res", str(self.size),
                       str(self.size), "-numthreads", "1", "-shade_phong", "+V", *extra])
-        # It ends with success after an error in a scene, too.
+        # It also exits with 0 after an error in a scene.
         if "Ray Tracing Time" not in output:
             sys.exit(f"frames.py: tachyon refused {name}.dat:\n{output[-2000:]}")
         return {"parse_seconds": stated(r"Scene Parsing Time:\s+([0-9.]+)", output, "Tachyon"),
@@ -99,7 +99,7 @@ class Frames:
                 "trace_seconds": stated(r"Ray Tracing Time:\s+([0-9.]+)", output, "Tachyon")}
 
     def compare_pictures(self, name):
-        """How far each of the others' pictures is from packtrace's."""
+        """The differences of the other tracers' pictures from packtrace's."""
         differences = {}
         scene = self.folder / f"{name}.scene"
         kept = scene.read_text()
@@ -123,7 +123,7 @@ def summary(seconds):
 
 
 def measure(frames, name, options):
-    """All figures of one scene."""
+    """All measurements of one scene."""
     frames.write_scene(name)
     objects = frames.objects(name)
     with_packtrace = objects <= options.max_packtrace_objects

@@ -10,7 +10,7 @@
 namespace packtrace::peers {
 namespace {
 
-/// Each chunk is a copy, as those of the other side are: all find their rays in the cache.
+/// Each chunk is a copy, as for Embree, so that both sides find their rays in the cache.
 double trace_stream(const RayScene<float>& scene, const RaySet& rays, Query query, Hits& hits)
 {
     RaySet chunk;
@@ -39,8 +39,9 @@ Tracer stream_tracer(const Scene& scene, const PacktraceMode& mode)
 {
     const RenderOptions options{.isa = mode.isa, .accuracy = mode.accuracy};
     const auto rays = std::make_shared<const RayScene<float>>(scene, options);
-    return {"packtrace " + mode.name + " stream", Side::packtrace, false,
-            [rays](const RaySet& set, Query query, Hits& hits) {
+    return {.name = "packtrace " + mode.name + " stream",
+            .side = Side::packtrace,
+            .trace = [rays](const RaySet& set, Query query, Hits& hits) {
                 return trace_stream(*rays, set, query, hits);
             }};
 }
@@ -48,8 +49,10 @@ Tracer stream_tracer(const Scene& scene, const PacktraceMode& mode)
 Tracer tile_tracer(const Scene& scene, const PacktraceMode& mode)
 {
     const auto tiles = std::make_shared<CameraTiles>(scene, mode.isa, mode.accuracy);
-    return {"packtrace " + mode.name + " tiles", Side::packtrace, true,
-            [tiles](const RaySet&, Query, Hits& hits) { return tiles->trace(hits); }};
+    return {.name = "packtrace " + mode.name + " tiles",
+            .side = Side::packtrace,
+            .camera_only = true,
+            .trace = [tiles](const RaySet&, Query, Hits& hits) { return tiles->trace(hits); }};
 }
 
 }  // namespace

@@ -9,14 +9,14 @@
 
 namespace packtrace::peers {
 
-/// An instruction set and an accuracy, and what the table calls both.
+/// An instruction set and an accuracy, and their name in tables.
 struct PacktraceMode {
     std::string name;
     std::string isa;
     Accuracy accuracy;
 };
 
-/// packtrace's public ray interface in each mode, and its tiles of camera rays, which it makes
+/// packtrace in each mode: its public ray interface, and tiles of camera rays, which it makes
 /// itself.
 [[nodiscard]] std::vector<Tracer> packtrace_tracers(const Scene& scene,
                                                     const std::vector<PacktraceMode>& modes);

@@ -4,7 +4,7 @@
 
 namespace packtrace::peers {
 
-/// Adds up what it measures.
+/// The sum of several measured times.
 class PassTimer {
 public:
     template <class Work>

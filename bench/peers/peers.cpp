@@ -1,5 +1,5 @@
-// packtrace_peers: the same rays through Embree, in all its modes, and through packtrace;
-// docs/peers.md says what is raced and what the columns mean.
+// packtrace_peers: races Embree, in all its modes, against packtrace on the same rays.
+// docs/peers.md explains the races and the columns.
 #include "builds.hpp"
 #include "context.hpp"
 #include "core/atomic_file.hpp"
@@ -49,17 +49,18 @@ std::vector<Tracer> tracers_for(const Scene& scene, const Arguments& arguments,
     std::vector<Tracer> tracers;
     if (scene.objects.size() <= static_cast<std::size_t>(arguments.most_objects))
         tracers = packtrace_tracers(scene, modes_of(arguments));
+    const Modes modes = arguments.quick ? Modes::quick : Modes::all;
     for (const Geometry geometry : {Geometry::user, Geometry::sphere}) {
         if (arguments.quick && geometry == Geometry::sphere)
             continue;
         const auto built = std::make_shared<const EmbreeScene>(spheres, geometry);
-        const auto more = embree_tracers(built, geometry, arguments.quick);
+        const auto more = embree_tracers(built, geometry, modes);
         tracers.insert(tracers.end(), more.begin(), more.end());
     }
     return tracers;
 }
 
-/// The points that secondary rays start from, the same for all.
+/// The start points of secondary rays, the same for all tracers.
 std::vector<SurfacePoint> first_points(const Scene& scene, const RaySet& camera,
                                        const std::vector<Tracer>& tracers)
 {
@@ -98,7 +99,7 @@ std::vector<Heat> heats_of(const std::string& kind, const Scene& scene, const Ra
     return heats;
 }
 
-/// The best of each side against each other, on the very same rays.
+/// Compares the hits of both sides' best results on the same rays.
 void compare_hits(const Scene& scene, const std::vector<Heat>& heats, Outcome& outcome)
 {
     const Result* ours = best_of(outcome.results, Side::packtrace);
@@ -118,13 +119,16 @@ void compare_hits(const Scene& scene, const std::vector<Heat>& heats, Outcome& o
     }
 }
 
-/// What docs/peers.md promises. Throws std::runtime_error.
+/// One ray in so many may differ (docs/peers.md).
+constexpr std::size_t rays_a_difference = 1000;
+
+/// Throws std::runtime_error if the hits differ more than docs/peers.md promises.
 void check_agreement(const Outcome& outcome)
 {
     const auto& a = outcome.agreement;
     const bool hits_differ =
-        a && (1000 * a->objects_differ > a->rays || a->ours_wrong > a->theirs_wrong);
-    const double most = 1e-3 * outcome.results.front().rays;
+        a && (rays_a_difference * a->objects_differ > a->rays || a->ours_wrong > a->theirs_wrong);
+    const double most = outcome.results.front().rays / static_cast<double>(rays_a_difference);
     const bool shadows_differ =
         static_cast<double>(outcome.occlusion_differences.value_or(0)) > most;
     if (hits_differ || shadows_differ)
@@ -143,7 +147,9 @@ nlohmann::ordered_json race_scene(const std::string& name, const Arguments& argu
     for (const std::string& kind : arguments.kinds) {
         const auto heats = heats_of(kind, scene, camera, points);
         Outcome outcome{name, scene.objects.size(), kind, {}, {}, {}};
-        outcome.results = race(heats, tracers, kind == "camera", arguments.repetitions);
+        outcome.results =
+            race(heats, tracers, kind == "camera" ? HeatKind::camera : HeatKind::other,
+                 arguments.repetitions);
         compare_hits(scene, heats, outcome);
         print(outcome);
         if (arguments.check)

@@ -1,10 +1,10 @@
-"""Float pictures as lists of values, rows from the top, and how far two are apart."""
+"""Float pictures as lists of values, rows from the top, and the difference of two pictures."""
 import array
 import sys
 
 
 def _ppm_words(data):
-    """The four words of a PPM's header, comments left out, and where its pixels begin."""
+    """The four words of a PPM's header, without comments, and the offset of its pixels."""
     words, i = [], 0
     while len(words) < 4:
         while data[i:i + 1].isspace():
@@ -40,7 +40,7 @@ def read_pfm(file):
     if (float(scale) < 0) != (sys.byteorder == "little"):
         raise ValueError(f"{file}: not in this machine's byte order")
     values = array.array("f", pixels)
-    # Its rows go from the bottom.
+    # Its rows are stored from the bottom.
     top_down = array.array("f")
     for y in reversed(range(height)):
         top_down.extend(values[3 * width * y:3 * width * (y + 1)])
@@ -48,7 +48,7 @@ def read_pfm(file):
 
 
 def difference(ours, theirs):
-    """Root mean square and share of values off by over 2/255, ours clamped as theirs are."""
+    """RMS error, and share of values off by more than 2/255; our values are clamped like theirs."""
     if ours[:2] != theirs[:2]:
         raise ValueError("the pictures are of different sizes")
     squares, off = 0.0, 0

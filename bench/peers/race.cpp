@@ -30,13 +30,13 @@ double Result::highest_rate() const
 }
 
 std::vector<Result> race(const std::vector<Heat>& heats, const std::vector<Tracer>& tracers,
-                         bool camera, int passes)
+                         HeatKind kind, int passes)
 {
     std::vector<Entry> entries;
     std::vector<Result> results;
     for (const Heat& heat : heats)
         for (const Tracer& tracer : tracers) {
-            if (tracer.camera_only && !camera)
+            if (tracer.camera_only && kind != HeatKind::camera)
                 continue;
             entries.push_back({&tracer, &heat});
             Result& result = results.emplace_back();

@@ -7,10 +7,10 @@
 
 namespace packtrace::peers {
 
-/// Names of the scenes to race on, and how to make one: four_spheres, flake4, flake6, random1m.
-/// All are of spheres only.
+/// The names of the scenes to race on: four_spheres, flake4, flake6, random1m. All have spheres
+/// only.
 [[nodiscard]] const std::vector<std::string>& scene_names();
-/// Throws std::invalid_argument for another name.
+/// Makes the scene of a name. Throws std::invalid_argument for another name.
 [[nodiscard]] Scene raced_scene(const std::string& name, int size);
 
 }  // namespace packtrace::peers

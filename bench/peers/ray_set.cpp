@@ -9,7 +9,7 @@
 namespace packtrace::peers {
 namespace {
 
-/// Every other bit of a number below 256.
+/// The even bits of a number below 256, joined.
 int even_bits(std::size_t number)
 {
     int bits = 0;

@@ -13,9 +13,9 @@ namespace packtrace::peers {
 inline constexpr int tile_size = 16;
 inline constexpr std::size_t tile_pixels = tile_size * tile_size;
 
-/// Rays as arrays of their components. Camera rays go tile by tile, row by row of tiles, and
-/// along a Z-order curve in each: 4, 8 or 16 consecutive ones are a 2x2, 4x2 or 4x4 block.
-/// Secondary rays keep the order of the camera rays they come from, misses left out.
+/// Rays as arrays of their components. Camera rays are in rows of tiles and, in each tile, along a
+/// Z-order curve: 4, 8 or 16 consecutive rays are a block of 2x2, 4x2 or 4x4 pixels. Secondary rays
+/// are in the order of their camera rays, without those of misses.
 struct RaySet {
     std::vector<float> org[3];
     std::vector<float> dir[3];
@@ -28,11 +28,11 @@ struct RaySet {
     }
     void add(const Vec3& origin, const Vec3& direction, double longest);
     [[nodiscard]] RaysView<float> view(std::size_t first, std::size_t count) const;
-    /// Replaces these rays by some of others.
+    /// Replaces these rays by `count` rays of `others`.
     void copy(const RaySet& others, std::size_t first, std::size_t count);
 };
 
-/// What a pass over a RaySet found; `occluded` for any hit, the others for the closest.
+/// The answers to a RaySet: `occluded` of any-hit queries, the others of closest-hit queries.
 struct Hits {
     std::vector<float> t;
     std::vector<std::int32_t> object;  ///< -1 for a miss
@@ -43,30 +43,32 @@ struct Hits {
     }
 };
 
-/// A point on a sphere of the scene, and which.
+/// A point on a sphere of the scene.
 struct SurfacePoint {
     Vec3 position;
     Vec3 normal;
-    double offset = 0.0;  ///< how far above the surface rays start
+    double offset = 0.0;  ///< distance of ray origins from the surface
 };
 
-/// The scene's camera rays, one a pixel. Width and height must be multiples of tile_size.
+/// The scene's camera rays, one for each pixel. Width and height must be multiples of tile_size.
 [[nodiscard]] RaySet camera_rays(const Scene& scene);
 
-/// Where rays hit, taken to the true surface in double precision; misses are left out.
+/// The hit points of rays, moved onto the true surface in double precision; none for misses.
 [[nodiscard]] std::vector<SurfacePoint> hit_points(const Scene& scene, const RaySet& rays,
                                                    const Hits& hits);
 
-/// Segments between points and a light, from the point or, `from_light`, from the other end.
+/// The end at which shadow rays start.
 enum class ShadowEnd { surface, light };
+
+/// Segments between points and a light.
 [[nodiscard]] RaySet shadow_rays(const std::vector<SurfacePoint>& points, const Vec3& light,
                                  ShadowEnd start);
 
-/// One ray from each point, its direction spread by the cosine to the normal.
+/// One ray from each point, with a random direction in proportion to the cosine to the normal.
 [[nodiscard]] RaySet bounce_rays(const std::vector<SurfacePoint>& points);
 
-/// The distance at which a ray truly enters or leaves a sphere first within its limits, in
-/// double precision; infinity for a miss.
+/// The first t at which a ray enters or leaves a sphere within its interval, in double precision;
+/// infinity for a miss.
 [[nodiscard]] double true_distance(const RaySet& rays, std::size_t ray, const Sphere& sphere);
 
 }  // namespace packtrace::peers

@@ -21,7 +21,7 @@ nlohmann::ordered_json to_json(const Agreement& a)
             {"embree_largest_error", a.their_largest_error}};
 }
 
-/// How many times as fast as the best of each of Embree's geometries; 0 where that did not run.
+/// Speed relative to the best of each of Embree's geometries; 0 if that did not run.
 struct Ratios {
     double user = 0.0;
     double sphere = 0.0;

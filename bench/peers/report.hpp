@@ -11,7 +11,7 @@
 
 namespace packtrace::peers {
 
-/// One scene and kind of rays.
+/// The results of one scene and kind of rays.
 struct Outcome {
     std::string scene;
     std::size_t objects = 0;

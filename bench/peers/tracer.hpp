@@ -9,8 +9,8 @@ namespace packtrace::peers {
 
 enum class Query { closest, occluded };
 
-/// Rays are handed over so many at a time, so that they and their hits stay in the second-level
-/// cache of either side; filling the chunks and reading them does not count.
+/// Rays in one call: few enough for them and their hits to stay in the second-level cache. Filling
+/// and reading chunks is not timed.
 inline constexpr std::size_t chunk_size = 4096;
 
 enum class Side { packtrace, embree_sphere, embree_user };
@@ -19,9 +19,9 @@ enum class Side { packtrace, embree_sphere, embree_user };
 struct Tracer {
     std::string name;
     Side side = Side::packtrace;
-    /// Only for camera rays, which it makes itself.
+    /// It traces camera rays only, which it makes itself.
     bool camera_only = false;
-    /// Seconds in which all rays were traced, on this thread.
+    /// Traces all rays on this thread; returns seconds.
     std::function<double(const RaySet&, Query, Hits&)> trace;
 };
 

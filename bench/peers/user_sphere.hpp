@@ -4,14 +4,14 @@
 
 namespace packtrace::peers {
 
-/// What Embree is given of a sphere, as sphere and as user geometry alike.
+/// A sphere's record, for Embree's sphere geometry and for user geometry.
 struct alignas(16) SphereRecord {
     float center[3];
     float radius;
 };
 
-/// Callbacks of a user geometry whose user pointer is an array of SphereRecord. Lanes are rays,
-/// masks are honoured; 4, 8 and 16 lanes take one instruction each where the machine has it.
+/// Callbacks of a user geometry whose user pointer is an array of SphereRecord. They test packets
+/// of 4, 8 and 16 rays with vectors of the machine, and obey masks.
 struct UserSphere {
     RTCIntersectFunctionN intersect = nullptr;
     RTCOccludedFunctionN occluded = nullptr;

@@ -5,7 +5,7 @@
 namespace packtrace::peers {
 namespace {
 
-// Intrinsics of both widths differ in their prefix alone; masks are vectors of all ones and zeros.
+// Intrinsics of both widths differ only in their prefix. Masks are vectors of all ones or zeros.
 #define PACKTRACE_LANES(Name, count, Vector, Integers, p, bits)                \
     struct Name {                                                              \
         PACKTRACE_LANES_ARITHMETIC(count, Vector, p)                           \

@@ -5,7 +5,7 @@
 namespace packtrace::peers {
 namespace {
 
-// Intrinsics of the three widths differ in their prefix alone.
+// Intrinsics of the three widths differ only in their prefix.
 #define PACKTRACE_LANES(Name, count, Vector, Mask, p, bits)                                      \
     struct Name {                                                                                \
         PACKTRACE_LANES_ARITHMETIC(count, Vector, p)                                             \

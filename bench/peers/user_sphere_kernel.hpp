@@ -5,12 +5,12 @@
 #include <cmath>
 #include <limits>
 
-// The callbacks over lanes of any width; included once per instruction set, whose source names
-// the lanes. `Lanes` has a vector V, a mask M and the operations used here.
+// The callbacks for lanes of any width. The source of each instruction set includes this once and
+// defines `Lanes`, with a vector V, a mask M and the operations used here.
 namespace packtrace::peers {
 namespace {
 
-// What all lanes have in common: intrinsics differ in their prefix alone.
+// What all lanes have in common: their intrinsics differ only in the prefix.
 #define PACKTRACE_LANES_ARITHMETIC(count, Vector, p) \
     using V = Vector;                                \
     static constexpr int width = count;              \
@@ -51,8 +51,8 @@ namespace {
         return p##_fmsub_ps(x, y, z);                \
     }
 
-/// Both distances of rays to a sphere. The discriminant is taken from the cross product, which
-/// keeps its digits where the square of a long way would lose them.
+/// The t of both hits of rays with a sphere. The discriminant is computed from the cross product,
+/// which is more exact for far spheres.
 template <class Lanes>
 struct Roots {
     typename Lanes::M real;
@@ -61,7 +61,7 @@ struct Roots {
 };
 
 template <class Lanes>
-Roots<Lanes> meet(const SphereRecord& sphere, const float* ray, typename Lanes::M active)
+Roots<Lanes> roots_of(const SphereRecord& sphere, const float* ray, typename Lanes::M active)
 {
     using V = typename Lanes::V;
     constexpr int n = Lanes::width;
@@ -104,7 +104,7 @@ void intersect_lanes(const RTCIntersectFunctionNArguments& args)
     constexpr int n = Lanes::width;
     auto* ray = reinterpret_cast<float*>(args.rayhit);
     const auto& sphere = static_cast<const SphereRecord*>(args.geometryUserPtr)[args.primID];
-    const auto roots = meet<Lanes>(sphere, ray, Lanes::active(args.valid));
+    const auto roots = roots_of<Lanes>(sphere, ray, Lanes::active(args.valid));
     if (!Lanes::any(roots.real))
         return;
     const auto near = within<Lanes>(roots.near, ray);
@@ -112,7 +112,7 @@ void intersect_lanes(const RTCIntersectFunctionNArguments& args)
     if (!Lanes::any(hit))
         return;
     Lanes::store(ray + 8 * n, hit, Lanes::select(near, roots.near, roots.far));
-    // Behind the ray's twelve components come the normal and u, v, which no one reads.
+    // After the ray's twelve components come the normal, u and v, which are not read.
     auto* prim = reinterpret_cast<int*>(ray + 17 * n);
     Lanes::store(prim, hit, static_cast<int>(args.primID));
     Lanes::store(prim + n, hit, static_cast<int>(args.geomID));
@@ -123,7 +123,7 @@ void occlude_lanes(const RTCOccludedFunctionNArguments& args)
 {
     auto* ray = reinterpret_cast<float*>(args.ray);
     const auto& sphere = static_cast<const SphereRecord*>(args.geometryUserPtr)[args.primID];
-    const auto roots = meet<Lanes>(sphere, ray, Lanes::active(args.valid));
+    const auto roots = roots_of<Lanes>(sphere, ray, Lanes::active(args.valid));
     if (!Lanes::any(roots.real))
         return;
     const auto hit = Lanes::both(
@@ -131,14 +131,14 @@ void occlude_lanes(const RTCOccludedFunctionNArguments& args)
     Lanes::store(ray + 8 * Lanes::width, hit, Lanes::set(-std::numeric_limits<float>::infinity()));
 }
 
-/// One lane, of packets whose number of rays has no vector here too.
+/// Both t of one lane, for packets of other widths.
 struct Distances {
     bool real;
     float near;
     float far;
 };
 
-inline Distances meet_one(const SphereRecord& sphere, const float* ray, unsigned n, unsigned i)
+inline Distances roots_of_one(const SphereRecord& sphere, const float* ray, unsigned n, unsigned i)
 {
     const float way[3] = {sphere.center[0] - ray[i], sphere.center[1] - ray[n + i],
                           sphere.center[2] - ray[2 * n + i]};
@@ -169,7 +169,7 @@ inline void intersect_any(const RTCIntersectFunctionNArguments& args)
     for (unsigned i = 0; i < n; ++i) {
         if (args.valid[i] == 0)
             continue;
-        const Distances t = meet_one(sphere, ray, n, i);
+        const Distances t = roots_of_one(sphere, ray, n, i);
         const bool near = t.real && within_one(t.near, ray, n, i);
         if (!near && !(t.real && within_one(t.far, ray, n, i)))
             continue;
@@ -188,13 +188,13 @@ inline void occlude_any(const RTCOccludedFunctionNArguments& args)
     for (unsigned i = 0; i < n; ++i) {
         if (args.valid[i] == 0)
             continue;
-        const Distances t = meet_one(sphere, ray, n, i);
+        const Distances t = roots_of_one(sphere, ray, n, i);
         if (t.real && (within_one(t.near, ray, n, i) || within_one(t.far, ray, n, i)))
             ray[8 * n + i] = -std::numeric_limits<float>::infinity();
     }
 }
 
-/// Of packets as wide as one of `Lanes`, and of others without vectors.
+/// With vectors for packets as wide as one of `Lanes`, else ray by ray.
 template <class... Lanes>
 void intersect_widths(const RTCIntersectFunctionNArguments* args)
 {

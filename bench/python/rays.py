@@ -61,7 +61,7 @@ def seconds_of(call):
 
 
 def race(turns, first, second):
-    """Seconds of both, in turns."""
+    """Seconds of both, by turns."""
     times = ([], [])
     for turn in range(turns):
         for side in ((0, 1), (1, 0))[turn % 2]:

@@ -1,5 +1,5 @@
-// Rays by the C++ library, on arrays that rays.py has: what the race calls through ctypes. Times
-// are taken here, so that calling costs nothing.
+// Rays through the C++ library, on arrays of rays.py, which calls these functions through ctypes.
+// Times are measured here, without the calls.
 #include <packtrace/intersect.hpp>
 #include <packtrace/read_scene.hpp>
 
@@ -27,7 +27,7 @@ double seconds_of(const void* scene, const Real* const* columns, std::size_t cou
     return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
-/// Vectors (n, 3) are sorted into columns, some at a time, by as plain a loop as users write.
+/// Vectors (n, 3) are copied into columns, a block at a time, by a plain loop as users would write.
 template <class Real>
 double seconds_of_vectors(const void* scene, const Real* origins, const Real* directions,
                           std::size_t count, Real* const* hits, std::int32_t* object)
@@ -66,7 +66,7 @@ void* new_scene(const char* text)
 
 extern "C" {
 
-// Eight columns of rays; t, and normals or null, of hits.
+// Rays are eight columns. Hits are t and the components of normals, which may be null.
 [[gnu::visibility("default")]] void* scene_float(const char* text)
 {
     return new_scene<float>(text);

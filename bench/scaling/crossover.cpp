@@ -1,5 +1,5 @@
-// packtrace_crossover: from how many spheres on a hierarchy is faster than a list, for frames and
-// for streams of camera, shadow and bounce rays, by instruction set; as JSON.
+// packtrace_crossover: the number of spheres from which on a BVH is faster than lists, for frames
+// and for streams of camera, shadow and bounce rays, by instruction set; as JSON.
 #include "context.hpp"
 #include "lab/harness/statistics.hpp"
 #include "lab/harness/stopwatch.hpp"
@@ -41,7 +41,7 @@ struct Arguments {
     }
 };
 
-/// What all scenes of a crossing have in common but the number of spheres.
+/// The settings of a crossover: all but the number of spheres.
 struct Setting {
     int size = 512;
     double cover = 1.0;
@@ -55,13 +55,13 @@ struct Setting {
 
 constexpr std::array<Traversal, 2> kinds = {Traversal::list, Traversal::tree};
 
-/// What is measured, through either of the kinds.
+/// What is measured, with each of `kinds`.
 struct Subject {
     std::string name;
     std::function<void()> through[2];
 };
 
-/// As in the study of scaling: scenes differ in their grain alone.
+/// As in scaling.cpp: the total cross-section of the spheres does not depend on their number.
 Scene scene_of(const Setting& setting, int objects)
 {
     const double radius = std::sqrt(setting.cover / objects);
@@ -71,7 +71,7 @@ Scene scene_of(const Setting& setting, int objects)
     return scene;
 }
 
-/// One scene, made ready both ways for an instruction set, and what was measured of it.
+/// One scene, prepared with both kinds for an instruction set, and its measurements.
 class Race {
 public:
     Race(const Scene& scene, RenderOptions options) : isa_(options.isa), scene_(scene)
@@ -92,14 +92,14 @@ public:
     Race(const Race&) = delete;
     Race& operator=(const Race&) = delete;
 
-    /// Each subject through both kinds, right after each other.
+    /// Measures each subject with both kinds, right after each other.
     void take_turn()
     {
         for (std::size_t i = 0; i < subjects_.size(); ++i)
             for (std::size_t kind = 0; kind < kinds.size(); ++kind)
                 seconds_[i][kind].push_back(seconds_of(1, subjects_[i].through[kind]));
     }
-    /// What was measured so far only warmed up.
+    /// Drops all measurements so far, which were to warm up.
     void forget()
     {
         for (auto& of_subject : seconds_)
@@ -171,7 +171,7 @@ private:
     std::vector<std::array<std::vector<double>, 2>> seconds_;
 };
 
-/// What was measured of some rays with so many spheres.
+/// The measurements of one kind of rays with one number of spheres.
 struct Point {
     int objects = 0;
     double list_seconds = 0.0;
@@ -196,8 +196,8 @@ struct Point {
     }
 };
 
-/// From how many objects on the ratio stays below 1, between the numbers measured by straight
-/// lines over logarithms. None where it does not come below, or is there from the start.
+/// The number of objects from which on the ratio stays below 1, interpolated linearly between the
+/// logarithms of the measured numbers. None if the ratio never or always stays below 1.
 std::optional<double> crossing_of(const std::vector<Point>& points)
 {
     std::size_t first = points.size();
@@ -212,7 +212,7 @@ std::optional<double> crossing_of(const std::vector<Point>& points)
     return above.objects * std::pow(static_cast<double>(below.objects) / above.objects, share);
 }
 
-/// The points of one instruction set in one setting, by rays.
+/// The points of one instruction set and kind of rays in one setting.
 struct Curve {
     std::string isa;
     std::string rays;
@@ -231,7 +231,8 @@ struct Curve {
     }
 };
 
-/// All instruction sets by turns, so that a busy spell falls on all; the first turn warms up.
+/// Measures all instruction sets by turns, so that a busy moment of the machine affects all. The
+/// first turn is to warm up.
 void add_points(const Arguments& arguments, const Setting& setting, int objects,
                 std::vector<Curve>& curves)
 {
@@ -284,7 +285,7 @@ void print_report(const Arguments& arguments, const std::string& command)
                 for (const Json& curve : curves_json(arguments, {size, cover, mirror}))
                     curves.push_back(curve);
     const std::chrono::duration<double> passed = std::chrono::steady_clock::now() - start;
-    // 1 on an idle machine; other programs had the rest.
+    // 1 on an idle machine, less if other programs ran.
     report["context"]["processor_share"] = work.seconds() / passed.count();
     bench::add_load_after(report["context"]);
     report["curves"] = curves;

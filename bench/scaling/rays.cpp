@@ -1,6 +1,6 @@
-// packtrace_rays: how many millions of a caller's rays a second one scene, instruction set and
-// accuracy bring, of each kind; as JSON. results/exact_cost.py runs programs of several versions by
-// turns, so that this source keeps to what their libraries have in common.
+// packtrace_rays: millions of a caller's rays per second, by kind, for one scene, instruction set
+// and accuracy; as JSON. results/exact_cost.py builds this source with several versions of the
+// library and runs them by turns, so it uses only what these versions have in common.
 #include "core/seconds_since.hpp"
 #include "peers/camera_tiles.hpp"
 #include "peers/raced_scenes.hpp"
@@ -31,7 +31,7 @@ struct Arguments {
     bool in_double = false;
 };
 
-/// Rays that are handed over at once.
+/// Rays in one call.
 constexpr std::size_t batch = 4096;
 
 /// A kind of rays, and one pass over all of them, which returns seconds.
@@ -41,7 +41,7 @@ struct Subject {
     std::function<double()> pass;
 };
 
-/// `spheres<N>`: as many in the unit cube; else one of raced_scenes.hpp.
+/// For `spheres<N>`, N spheres in the unit cube; else a scene of raced_scenes.hpp.
 Scene scene_of(const Arguments& arguments)
 {
     if (!arguments.scene.starts_with("spheres"))
@@ -80,7 +80,7 @@ private:
     std::vector<Real> values_[8];
 };
 
-/// What passes over rays write to.
+/// The arrays that passes over rays write to.
 template <class Real>
 struct Answers {
     std::vector<Real> t;

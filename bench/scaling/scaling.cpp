@@ -1,5 +1,5 @@
-// packtrace_scaling: one point of a scaling study, as JSON: building and frames of random
-// spheres. A process a point, so that its peak of memory is its own.
+// packtrace_scaling: one point of a scaling study, as JSON: building and rendering random spheres.
+// Each point has its own process, so that it has its own peak of memory.
 #include "context.hpp"
 #include "core/seconds_since.hpp"
 #include "program.hpp"
@@ -39,8 +39,8 @@ double peak_bytes()
     return 1024.0 * static_cast<double>(usage.ru_maxrss);
 }
 
-/// Spheres in the unit cube whose cross-sections add up to the same area, however many they
-/// are, so that as many rays hit and scenes differ in their grain alone.
+/// Spheres in the unit cube with the same total cross-section for every number of spheres, so that
+/// about as many rays hit them.
 Scene scene_of(const Arguments& arguments)
 {
     const double radius = std::sqrt(arguments.cover / arguments.objects);
@@ -78,7 +78,7 @@ nlohmann::ordered_json measure(const Arguments& arguments)
 
 void print_point(const Arguments& arguments)
 {
-    // Building runs in what threads there are, frames in what the options say.
+    // Limits the build; frames have the number of threads in their options.
     const tbb::global_control limit(tbb::global_control::max_allowed_parallelism,
                                     static_cast<std::size_t>(arguments.threads));
     nlohmann::ordered_json point = measure(arguments);

@@ -37,10 +37,10 @@ def run_point(program, point, frames):
 
 
 def add_run(point, measured):
-    """Joins one process's figures to a point's."""
+    """Adds one process's measurements to a point."""
     for key in ("build_seconds", "peak_bytes", "build_bytes_an_object", "scene_bytes_an_object"):
         point.setdefault(key + "_of_all", []).append(measured[key])
-    # The first frame also touches its memory for the first time.
+    # The first frame also allocates memory.
     point.setdefault("first_frame_seconds_of_all", []).append(measured["frame_seconds"][0])
     point.setdefault("frame_seconds_of_all", []).extend(measured["frame_seconds"][1:])
     point["rays"] = measured["rays"]
@@ -55,7 +55,7 @@ def finish(point):
 
 
 def growth(measured):
-    """Cost of a ray over that of ten times fewer objects, and the ratio of their logarithms."""
+    """Cost of a ray over its cost with a tenth of the objects, and the ratio of the logarithms."""
     steps = []
     chosen = [p for p in measured if p["study"] == "objects"]
     for less in chosen:

@@ -1,5 +1,5 @@
-// packtrace_sorted: frames of large scenes with mirrors on one thread, by blocks of tiles whose
-// mirrored rays are sorted, against tile by tile, as JSON.
+// packtrace_sorted: frames of large scenes with mirrors on one thread, in blocks of tiles with
+// sorted mirrored rays against tile by tile; as JSON.
 #include "context.hpp"
 #include "dispatch/kernels.hpp"
 #include "lab/harness/statistics.hpp"
@@ -52,7 +52,7 @@ std::vector<NamedScene> large_scenes()
             {"random100k", random_mirrors(100'000, 0.005)}};
 }
 
-/// Edges of the squares that are rendered together, in tiles.
+/// Edges of the blocks that are rendered at once, in tiles.
 constexpr int edges[] = {1, abi::block_edge / 2, abi::block_edge};
 
 Json race(const NamedScene& named, const std::string& isa, const Arguments& arguments)
@@ -68,7 +68,7 @@ Json race(const NamedScene& named, const std::string& isa, const Arguments& argu
                 (void)tiles.render_once(image, grid[piece]);
         });
     };
-    // The first frames pay for memory.
+    // The first frames allocate memory.
     (void)time_in_turns(std::size(edges), 1, frame);
     const auto seconds = time_in_turns(std::size(edges), arguments.repetitions, frame);
     Json json{{"scene", named.name}, {"isa", isa}};

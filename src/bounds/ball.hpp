@@ -3,11 +3,11 @@
 #include "core/quad.hpp"
 #include "reference/vec3.hpp"
 
-// Numbers with all that they may be off by (docs/numerics_derivations.md).
+// Ball arithmetic: numbers with a bound of their error (docs/numerics_derivations.md).
 namespace packtrace::bounds {
 
-/// Any number whose distance from `mid` is at most `radius`. A radius that is infinite, or no
-/// number, says nothing.
+/// All numbers whose distance from `mid` is at most `radius`; all numbers where `radius` is
+/// infinite or NaN.
 struct Ball {
     Quad mid = 0;
     double radius = 0.0;
@@ -16,7 +16,7 @@ struct Ball {
     explicit Ball(double x) : mid(x)
     {
     }
-    explicit Ball(Quad) = delete;  // not by way of double
+    explicit Ball(Quad) = delete;  // it would be rounded to double
     Ball(Quad m, double r) : mid(m), radius(r)
     {
     }
@@ -26,9 +26,9 @@ using BallVec = reference::Vec3<Ball>;
 
 inline constexpr double infinity = std::numeric_limits<double>::infinity();
 
-/// A radius is a few roundings of doubles below what is computed for it.
+/// Radii are multiplied by this: a few roundings in double may make them too small.
 inline constexpr double inflation = 1.0 + 0x1p-48;
-/// What underflow may take of a radius.
+/// Added to radii: underflow may make them too small by as much.
 inline constexpr double smallest = 0x1p-1000;
 
 [[nodiscard]] inline double size_of(Quad x)
@@ -36,7 +36,7 @@ inline constexpr double smallest = 0x1p-1000;
     return std::abs(static_cast<double>(x)) * inflation;
 }
 
-/// The rounding of one operation, with twice 113 bits' unit roundoff.
+/// A bound of one operation's rounding error: twice the unit roundoff of 113 bits.
 [[nodiscard]] inline double rounding_of(Quad result)
 {
     return result == 0 ? 0.0 : size_of(result) * 0x1p-112 + smallest;
@@ -57,7 +57,7 @@ inline constexpr double smallest = 0x1p-1000;
     if (is_zero(a) || is_zero(b))
         return is_zero(a) ? b : a;
     const Quad mid = a.mid + b.mid;
-    // What rounding took, to the last digit (Knuth's sum of two).
+    // Knuth's two-sum gives the rounding error exactly.
     if (a.radius == 0.0 && b.radius == 0.0) {
         const Quad second = mid - a.mid;
         if ((a.mid - (mid - second)) + (b.mid - second) == 0)
@@ -76,7 +76,7 @@ inline constexpr double smallest = 0x1p-1000;
 [[nodiscard]] inline Ball operator*(const Ball& a, const Ball& b)
 {
     const Quad mid = a.mid * b.mid;
-    // 53 bits times 53 bits are at most 106.
+    // 53 bits times 53 bits are at most 106: the product is exact.
     if ((is_double(a) && is_double(b)) || is_zero(a) || is_zero(b))
         return {mid, 0.0};
     double radius = rounding_of(mid);
@@ -86,7 +86,7 @@ inline constexpr double smallest = 0x1p-1000;
     return {mid, radius * inflation};
 }
 
-/// Above zero for sure. False where nothing is known.
+/// Whether all numbers of the ball are above zero. False where nothing is known.
 [[nodiscard]] inline bool is_positive(const Ball& x)
 {
     return x.mid > x.radius;
@@ -100,7 +100,7 @@ inline constexpr double smallest = 0x1p-1000;
     return is_positive(x) || is_negative(x);
 }
 
-/// Not above any number of the ball.
+/// At most as large as every number of the ball.
 [[nodiscard]] inline Quad lower_end(const Ball& x)
 {
     return x.radius == 0.0 ? x.mid : x.mid - (Quad(x.radius * inflation) + 4 * rounding_of(x.mid));
@@ -121,7 +121,7 @@ inline constexpr double smallest = 0x1p-1000;
     return (size_of(x.mid) + x.radius) * inflation;
 }
 
-/// Nothing is known of what is divided by a ball with a zero in it.
+/// Of infinite radius where `b` holds zero.
 [[nodiscard]] inline Ball operator/(const Ball& a, const Ball& b)
 {
     const double least = least_size(b);
@@ -139,7 +139,7 @@ inline constexpr double smallest = 0x1p-1000;
     return {mid, radius * inflation};
 }
 
-/// Of a ball without negative numbers.
+/// `x` holds no negative number.
 [[nodiscard]] inline Ball square_root(const Ball& x)
 {
     const Quad root = packtrace::square_root(x.mid);

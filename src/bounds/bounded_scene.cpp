@@ -26,7 +26,7 @@ HitBounds rounded(Quad low, Quad high, const Range& range)
     return {std::max(round_down(low), range.t_min), std::min(round_up(high), range.t_max)};
 }
 
-/// An interval with all that overlap it.
+/// The bounds of an interval and of all that overlap it.
 HitBounds with_overlapping(const HitInterval& hit, std::span<const HitInterval> hits,
                            const Range& range)
 {
@@ -40,13 +40,13 @@ HitBounds with_overlapping(const HitInterval& hit, std::span<const HitInterval> 
     return rounded(low, high, range);
 }
 
-/// How far t is from an interval.
+/// The distance of t from an interval; 0 inside it.
 Quad distance(const HitInterval& hit, double t)
 {
     return std::max({hit.low - t, t - hit.high, Quad(0)});
 }
 
-/// Bounds of the first hit in the range, from line_hits(); empty where there surely is none.
+/// Bounds of the first hit in the range, by line_hits(); empty where no hit can be there.
 HitBounds first_of(std::span<const HitInterval> hits, const Range& range)
 {
     std::optional<Quad> low;
@@ -57,17 +57,17 @@ HitBounds first_of(std::span<const HitInterval> hits, const Range& range)
             continue;
         low = low ? std::min(*low, hit.low) : hit.low;
         most = most ? std::max(*most, hit.high) : hit.high;
-        // The first hit does not come after one that is there for sure.
+        // The first hit does not come after a certain one.
         if (surely_counts(hit, range))
             latest = latest ? std::min(*latest, hit.high) : hit.high;
     }
     return low ? rounded(*low, latest.value_or(*most), range) : HitBounds{};
 }
 
-/// What is against some hits being in some of the intervals, the gravest first.
+/// The cost of assigning hits to intervals. Fewer passed over is better; then a smaller distance.
 struct Misfit {
-    int passed_over = 0;  ///< intervals that hold a hit for sure, but none of these
-    Quad distance = 0;
+    int passed_over = 0;  ///< certain intervals without an assigned hit
+    Quad distance = 0;    ///< of the hits from their intervals, summed
 
     friend bool operator<(const Misfit& a, const Misfit& b)
     {
@@ -76,12 +76,12 @@ struct Misfit {
     }
 };
 
-/// Which of `hits` each t is in, as many or fewer, both in rising order: the fewest certain ones
-/// are passed over, and of that the nearest are taken. By dynamic programming.
+/// Assigns each t to one of `hits`, in rising order, at the least Misfit. There are at least as
+/// many intervals as t. By dynamic programming.
 std::vector<std::size_t> in_order(std::span<const HitInterval> hits, std::span<const double> t)
 {
     const std::size_t width = hits.size() + 1;
-    // Of the first `i` of t in the first `j` intervals, for j >= i.
+    // The least misfit of the first `i` of t in the first `j` intervals, for j >= i.
     std::vector<Misfit> best((t.size() + 1) * width);
     std::vector<bool> takes(best.size());
     for (std::size_t i = 0; i <= t.size(); ++i)
@@ -111,9 +111,9 @@ const HitInterval& nearest(std::span<const HitInterval> hits, double t)
                              });
 }
 
-/// Bounds of each t, of which there are more than `counted`: such as a touch, which is hit twice.
-/// What lies by one of `hits` that does not count is no hit, unless rounding t to single precision
-/// may have taken it there.
+/// Bounds of each t where there are more t than intervals in `counted`, as a ray that touches a
+/// surface hits it twice. A t next to an interval of `hits` outside the range gets empty bounds,
+/// unless rounding to single precision may have moved it there.
 void bounds_of_more(std::span<const HitInterval> counted, std::span<const HitInterval> hits,
                     const Range& range, std::span<const double> t, std::span<HitBounds> bounds)
 {
@@ -126,7 +126,7 @@ void bounds_of_more(std::span<const HitInterval> counted, std::span<const HitInt
     }
 }
 
-/// Bounds of each of several hits in the range, whose rounded t are given in rising order.
+/// Bounds of several hits in the range. `t` holds their rounded values in rising order.
 void bounds_of(std::span<const HitInterval> hits, const Range& range, std::span<const double> t,
                std::span<HitBounds> bounds)
 {
@@ -134,7 +134,7 @@ void bounds_of(std::span<const HitInterval> hits, const Range& range, std::span<
     for (HitInterval hit : hits) {
         if (!may_count(hit, range))
             continue;
-        // A root where the ray starts may well be passed over.
+        // Where a hit may lie outside the range, it may be passed over.
         hit.certain = surely_counts(hit, range);
         counted.insert(counted.end(), static_cast<std::size_t>(hit.hits), hit);
     }
@@ -207,7 +207,7 @@ void BoundedScene::replace(const Scene& scene, std::span<const MovedShape> moved
 
 std::vector<HitInterval> BoundedScene::hits_of(std::int32_t object, const Line& line) const
 {
-    // A ray with a NaN hits nothing, of which line_hits() would prove nothing.
+    // A ray with a NaN hits nothing; line_hits() could prove nothing about it.
     if (glm::any(glm::isnan(line.org)) || glm::any(glm::isnan(line.dir)))
         return {};
     const std::int32_t at = index_[static_cast<std::size_t>(object)];

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <variant>
 
+// lab/truth/wide_surface.cpp resembles this file and shares nothing with it on purpose: stress
+// tests check these bounds against its truth, and an error in shared code would show in neither.
 namespace packtrace::bounds {
 namespace {
 
@@ -40,7 +42,7 @@ void define(ExactSurface& surface, const Polygon& polygon)
         surface.linear = surface.linear + cross(surface.edges[i][0], surface.edges[i][1]);
 }
 
-/// The planes that a x² - b y² = 0 is made of, along any two of the axes; nothing for all else.
+/// The two planes of a x² - b y² = 0, along any two of the axes; nothing for other quadrics.
 std::optional<std::array<BallVec, 2>> crossing_planes(const std::array<double, 10>& k)
 {
     if (std::any_of(k.begin() + 3, k.end(), [](double x) { return x != 0.0; }))

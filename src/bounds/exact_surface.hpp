@@ -9,8 +9,8 @@
 
 namespace packtrace::bounds {
 
-/// A surface as p·S p + 2 l·p + k = 0 in a space of its own, negative inside: p = M⁻¹ (P - offset)
-/// - center. All of it means what the scene's numbers say to the last digit.
+/// A surface as p·S p + 2 l·p + k = 0 in a space of its own, negative inside:
+/// p = M⁻¹ (P - offset) - center. The scene's numbers are taken as exact.
 struct ExactSurface {
     BallVec square[3];  ///< rows of the symmetric S
     BallVec linear;
@@ -21,10 +21,11 @@ struct ExactSurface {
     Vec3 offset{0.0};
     std::optional<ZRange> z_range;
     bool capped = false;
-    /// Of a x² = b y², along any two axes: normals of the two planes that it is.
+    /// Of a x² = b y², along any two axes: the normals of its two planes.
     std::optional<std::array<BallVec, 2>> sheets;
 
-    /// Edges of a polygon from `center`, two ends each; `linear` is half a normal of its plane.
+    /// Edges of a polygon, relative to `center`, two ends each. `linear` is half a normal of its
+    /// plane.
     std::vector<std::array<BallVec, 2>> edges;
 
     ExactSurface(const Surface& from, const Mat4& transform);

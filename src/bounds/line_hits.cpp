@@ -12,7 +12,7 @@ namespace {
 
 using reference::dot;
 
-/// What is proven of a condition.
+/// Whether a condition is proven false, undecided, or proven true.
 enum class Proof { no, open, yes };
 
 Proof is_between(const Ball& x, double low, double high)
@@ -26,15 +26,15 @@ Proof is_between(const Ball& x, double low, double high)
                                                                             : Proof::open;
 }
 
-/// The ball that holds an interval.
+/// A ball that holds an interval.
 Ball ball_of(Quad low, Quad high)
 {
     const Quad middle = (low + high) / 2;
     return {middle, static_cast<double>(high - middle) * inflation + size_of(middle) * 0x1p-110};
 }
 
-/// A line in the space of one surface. Its direction has a length near 1 there is in the world, so
-/// that no square of it over- or underflows; t counts in those.
+/// A line in the space of one surface. `dir` has a length near 1 in the world, so that its squares
+/// neither overflow nor underflow; t counts in lengths of `dir`.
 class OwnLine {
 public:
     OwnLine(const ExactSurface& surface, const Vec3& org, const BallVec& dir)
@@ -88,7 +88,7 @@ private:
         return {a_, dot(surface_.gradient(p), v_), surface_.value(p)};
     }
 
-    /// The point nearest to the middle of the line's own space.
+    /// The t nearest to the origin of the surface's own space.
     [[nodiscard]] Quad start() const
     {
         const auto t = static_cast<double>((-dot(p_, v_) / dot(v_, v_)).mid);
@@ -123,7 +123,8 @@ private:
                    : Proof::open;
     }
 
-    /// Whether heights from `z` on, which change by `climb`, are surely out of the z range.
+    /// Whether a line that starts at height `z` and climbs by `climb` surely never enters the z
+    /// range.
     [[nodiscard]] bool stays_out(const Ball& z, const Ball& climb) const
     {
         return (is_positive(climb) && is_positive(z - Ball(surface_.z_range->high))) ||
@@ -132,9 +133,9 @@ private:
 
     void add_cap(double height, std::vector<HitInterval>& found) const
     {
-        std::vector<HitInterval> crossing;
-        add_plane(p_.z - Ball(height), v_.z, crossing);
-        for (HitInterval& hit : crossing) {
+        std::vector<HitInterval> plane_hits;
+        add_plane(p_.z - Ball(height), v_.z, plane_hits);
+        for (HitInterval& hit : plane_hits) {
             if (hit.certain) {
                 const Ball value = surface_.value(at(ball_of(hit.low, hit.high)));
                 if (is_positive(value))
@@ -150,16 +151,17 @@ private:
         const Proof inside = within_edges();
         if (inside == Proof::no)
             return;
-        std::vector<HitInterval> crossing;
-        add_plane(surface_.value(p_), dot(surface_.linear + surface_.linear, v_), crossing);
-        for (HitInterval& hit : crossing) {
+        std::vector<HitInterval> plane_hits;
+        add_plane(surface_.value(p_), dot(surface_.linear + surface_.linear, v_), plane_hits);
+        for (HitInterval& hit : plane_hits) {
             hit.certain = hit.certain && inside == Proof::yes;
             found.push_back(hit);
         }
     }
 
-    /// Whether the line passes through a polygon, by the even-odd rule along one of four half axes
-    /// across it: one on which no end of an edge lies.
+    /// Whether the line passes through a polygon, by the even-odd rule. The rule counts edges along
+    /// a half axis across the line. The first of four half axes that touches no end of an edge
+    /// decides.
     [[nodiscard]] Proof within_edges() const
     {
         const Ball v[3] = {v_.x, v_.y, v_.z};
@@ -171,7 +173,8 @@ private:
         return Proof::open;
     }
 
-    /// An edge's end across the line, times the line's component `along`.
+    /// An edge's end projected along the line onto the other two axes, times the component `along`
+    /// of the line.
     [[nodiscard]] std::array<Ball, 2> across(const BallVec& end, int along) const
     {
         const BallVec off = end - p_;
@@ -221,9 +224,9 @@ private:
         const Quad low = lower_end(t);
         const Quad high = upper_end(t);
         if (low <= high)
-            found.push_back({low, high, true, 1});
+            found.push_back({.low = low, .high = high, .certain = true});
         else
-            found.push_back({-Quad(infinity), Quad(infinity), false, 1});
+            found.push_back({.low = -Quad(infinity), .high = Quad(infinity), .certain = false});
     }
 
     const ExactSurface& surface_;
@@ -245,10 +248,10 @@ Quad scaled(Quad x, int exponent)
     return x * Quad(std::ldexp(1.0, half)) * Quad(std::ldexp(1.0, exponent - half));
 }
 
-/// All from one interval on that overlap, directly or by others between them.
+/// An interval joined with the following ones that overlap it, or that overlap one of those.
 struct Cluster {
     HitInterval all;
-    std::size_t end;  ///< number of the first one behind them
+    std::size_t end;  ///< index of the first interval behind the cluster
 };
 
 Cluster cluster_from(const std::vector<HitInterval>& hits, std::size_t first)
@@ -263,8 +266,9 @@ Cluster cluster_from(const std::vector<HitInterval>& hits, std::size_t first)
     return cluster;
 }
 
-/// Of a closed body: intervals that overlap, as those of side and cap at a rim, become one that has
-/// a hit for sure where the line is inside the body on one side of them and outside on the other.
+/// Of a closed body: intervals that overlap, such as those of side and cap at a rim, become one
+/// certain interval where the line is proven inside the body before them and outside behind them,
+/// or the other way round.
 void prove_crossings(const OwnLine& line, std::vector<HitInterval>& hits)
 {
     Quad last = 0;

@@ -7,21 +7,21 @@ namespace {
 
 using From = std::function<Quadratic(Quad)>;
 
-/// Nothing is known, but that there are no more roots than so many.
+/// For at most `roots` roots of which nothing else is known.
 RootInterval anywhere(int roots)
 {
     return {-Quad(infinity), Quad(infinity), false, roots};
 }
 
-/// t plus a ball, as an interval; everything where the ball says nothing.
-RootInterval around(Quad t, const Ball& s, bool certain)
+/// An interval of one certain root at t plus a ball; infinite where nothing is known of the ball.
+RootInterval around(Quad t, const Ball& s)
 {
     const Ball sum = Ball(t, 0.0) + s;
     const Quad low = lower_end(sum);
     const Quad high = upper_end(sum);
     if (!(low <= high))
-        return {-Quad(infinity), Quad(infinity), certain, 1};
-    return {low, high, certain, 1};
+        return {-Quad(infinity), Quad(infinity), true, 1};
+    return {low, high, true, 1};
 }
 
 Ball discriminant(const Quadratic& f)
@@ -35,28 +35,37 @@ Ball vieta_sum(const Ball& b, const Ball& root)
     return is_positive(b) ? -(b + root) : root - b;
 }
 
-/// Narrows an interval with one root, at which the slope has the sign of `rising`, by the quadratic
-/// from its middle on. There the root at -c / (b + sign(b) √D) is the one whose slope has b's sign.
-RootInterval narrowed(const From& from, const RootInterval& wide, bool rising)
+/// The sign of a quadratic's slope at a root.
+enum class Slope { falling, rising };
+
+/// For b with a sign.
+Slope slope_of(const Ball& b)
+{
+    return is_positive(b) ? Slope::rising : Slope::falling;
+}
+
+/// Narrows an interval with one root of known slope, by the quadratic relative to the interval's
+/// middle. There -c / (b + sign(b) √D) is the root whose slope has the sign of b.
+RootInterval narrowed(const From& from, const RootInterval& wide, Slope slope)
 {
     const Quad middle = (wide.low + wide.high) / 2;
     if (!(magnitude(middle) < Quad(infinity)))
         return wide;
     const Quadratic f = from(middle);
     const Ball d = discriminant(f);
-    if (!is_positive(d) || !(rising ? is_positive(f.b) : is_negative(f.b)))
+    if (!is_positive(d) || !(slope == Slope::rising ? is_positive(f.b) : is_negative(f.b)))
         return wide;
-    const RootInterval narrow = around(middle, f.c / vieta_sum(f.b, square_root(d)), wide.certain);
+    const RootInterval narrow = around(middle, f.c / vieta_sum(f.b, square_root(d)));
     return {std::max(wide.low, narrow.low), std::min(wide.high, narrow.high), wide.certain, 1};
 }
 
-/// The same until it is far below a double's last place, in a few steps.
-RootInterval polished(const From& from, RootInterval root, bool rising)
+/// Narrows an interval until it is far below a double's last place, in at most four steps.
+RootInterval refined(const From& from, RootInterval root, Slope slope)
 {
     for (int step = 0; step < 4; ++step) {
         if (root.high - root.low <= Quad(0x1p-80) * magnitude(root.low))
             break;
-        root = narrowed(from, root, rising);
+        root = narrowed(from, root, slope);
     }
     return root;
 }
@@ -67,21 +76,20 @@ std::vector<RootInterval> roots_of_line(const From& from, const Quadratic& f, Qu
         return {};
     if (!has_sign(f.b))
         return {anywhere(1)};
-    const RootInterval root = around(start, -f.c / (f.b + f.b), true);
-    return {polished(from, root, is_positive(f.b))};
+    return {refined(from, around(start, -f.c / (f.b + f.b)), slope_of(f.b))};
 }
 
 /// The roots of a quadratic whose a has a sign.
 std::vector<RootInterval> roots_of_parabola(const From& from, const Quadratic& first, Quad start)
 {
-    // From the middle between the roots, where nothing of b² - a c cancels.
+    // Relative to the middle between the roots, where nothing of b² - a c cancels.
     const Quad middle = start + Quad(static_cast<double>((-first.b / first.a).mid));
     const Quadratic f = from(middle);
     const Ball d = discriminant(f);
     if (is_negative(d))
         return {};
     if (is_zero(d)) {
-        RootInterval touch = around(middle, -f.b / f.a, true);
+        RootInterval touch = around(middle, -f.b / f.a);
         touch.roots = 2;
         return {touch};
     }
@@ -89,8 +97,9 @@ std::vector<RootInterval> roots_of_parabola(const From& from, const Quadratic& f
         const Quad most = upper_end(d);
         if (!(most < Quad(infinity)))
             return {anywhere(2)};
-        const double reach = size_of(packtrace::square_root(std::max(most, Quad(0))));
-        RootInterval both = around(middle, Ball((-f.b).mid, f.b.radius + reach) / f.a, false);
+        const double largest_root = size_of(packtrace::square_root(std::max(most, Quad(0))));
+        RootInterval both = around(middle, Ball((-f.b).mid, f.b.radius + largest_root) / f.a);
+        both.certain = false;
         both.roots = 2;
         return {both};
     }
@@ -101,18 +110,18 @@ std::vector<RootInterval> roots_of_parabola(const From& from, const Quadratic& f
         const Ball q = vieta_sum(f.b, root);
         (is_positive(f.b) ? rising : falling) = f.c / q;
     }
-    return {polished(from, around(middle, falling, true), false),
-            polished(from, around(middle, rising, true), true)};
+    return {refined(from, around(middle, falling), Slope::falling),
+            refined(from, around(middle, rising), Slope::rising)};
 }
 
-/// The same where a may be 0: one root, and another very far away on either side.
+/// The roots where a may be 0: one root, and another very far away on either side.
 std::vector<RootInterval> roots_of_any(const From& from, const Quadratic& f, Quad start)
 {
     const Ball d = discriminant(f);
     if (!has_sign(f.b) || !is_positive(d))
         return {anywhere(2)};
     const Ball q = vieta_sum(f.b, square_root(d));
-    const RootInterval near = polished(from, around(start, f.c / q, true), is_positive(f.b));
+    const RootInterval near = refined(from, around(start, f.c / q), slope_of(f.b));
     const double far = least_size(q) / largest_size(f.a);
     if (!(far < infinity) || !(magnitude(start) < Quad(far / 4)))
         return {near, anywhere(1)};

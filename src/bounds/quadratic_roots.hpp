@@ -15,7 +15,7 @@ struct Quadratic {
     Ball c;
 };
 
-/// Holds so many roots at most, and one at least where `certain`.
+/// Holds at most `roots` roots, and at least one where `certain`.
 struct RootInterval {
     Quad low;
     Quad high;
@@ -23,9 +23,10 @@ struct RootInterval {
     int roots;
 };
 
-/// Intervals with all roots of a quadratic of which only what is given is known. `from(t)` is that
-/// from the line's point at t on: the nearer it lies to a root, the more exact that becomes.
-/// `start` is a point near all of the surface's middle. An identical zero has no roots.
+/// Intervals that hold all roots of a quadratic whose coefficients are known as balls. `from(t)`
+/// gives the quadratic relative to the line's point at t: the nearer t is to a root, the more exact
+/// its coefficients. `start` is the t of a point near the middle of the surface. A quadratic that
+/// is zero everywhere has no roots.
 [[nodiscard]] std::vector<RootInterval> roots_of(const std::function<Quadratic(Quad)>& from,
                                                  Quad start);
 

@@ -3,7 +3,8 @@
 #include <cstdint>
 #include <limits>
 
-// Boxes in registers of four floats, a vector extension of both compilers; the fourth is unused.
+// Boxes in registers of four floats, by a vector extension of GCC and Clang. The fourth float is
+// unused.
 namespace packtrace {
 
 using Float4 [[gnu::vector_size(16)]] = float;

@@ -11,10 +11,12 @@ namespace {
 
 constexpr std::size_t leaf_items = abi::node_width;
 
-/// Below this level every range is halved by number, so that no scene makes a deep hierarchy.
+/// Below this level every range is halved by number, so that no scene makes a deep BVH. With eight
+/// children in each node, balanced BVHs are far less deep.
 constexpr int heuristic_levels = 24;
 
-/// Subtrees of more items are built as tasks of their own.
+/// Subtrees of more items are built in tasks of their own: enough work for a task to be worth its
+/// start.
 constexpr std::size_t task_items = 2048;
 
 /// A node's children while it is built.
@@ -64,29 +66,34 @@ private:
         return level < heuristic_levels ? split(items_, range) : split_number(items_, range);
     }
 
+    /// The largest child that is no leaf, by area, or by number below the heuristic's levels; null
+    /// if all are leaves.
+    [[nodiscard]] BvhRange* largest_child(NodeChildren& children, int level) const
+    {
+        BvhRange* largest = nullptr;
+        float size = -1.0f;
+        for (BvhRange& child : std::span(children.range).first(children.count)) {
+            const float child_size =
+                level < heuristic_levels ? half_area(child.box) : static_cast<float>(child.count());
+            if (!is_leaf(child) && child_size > size) {
+                size = child_size;
+                largest = &child;
+            }
+        }
+        return largest;
+    }
+
     /// Splits the largest child until there are eight, or only leaves.
     [[nodiscard]] NodeChildren divide(const BvhRange& range, int level)
     {
         NodeChildren children;
         children.range[children.count++] = range;
         while (children.count < children.range.size()) {
-            int largest = -1;
-            float size = -1.0f;
-            for (std::size_t i = 0; i < children.count; ++i) {
-                const BvhRange& child = children.range[i];
-                const float child_size = level < heuristic_levels
-                                             ? half_area(child.box)
-                                             : static_cast<float>(child.count());
-                if (!is_leaf(child) && child_size > size) {
-                    size = child_size;
-                    largest = static_cast<int>(i);
-                }
-            }
-            if (largest < 0)
+            BvhRange* const largest = largest_child(children, level);
+            if (largest == nullptr)
                 break;
-            auto& chosen = children.range[static_cast<std::size_t>(largest)];
-            const auto [lower, upper] = halve(chosen, level);
-            chosen = lower;
+            const auto [lower, upper] = halve(*largest, level);
+            *largest = lower;
             children.range[children.count++] = upper;
         }
         return children;
@@ -112,7 +119,8 @@ private:
         nodes_[index] = node;
     }
 
-    /// A leaf by its first item for now; a node by the index it will have.
+    /// Makes a leaf or a node; returns the child's value in its node. For a leaf that is leaf_bit |
+    /// its first item, until finish().
     [[nodiscard]] std::uint32_t make_child(const BvhRange& range, int level)
     {
         if (is_leaf(range)) {
@@ -128,7 +136,7 @@ private:
         return index;
     }
 
-    /// So that the order in a leaf says nothing of how it came about.
+    /// Makes the order in a leaf independent of how it was found.
     void sort_by_number(const BvhRange& range)
     {
         const auto members = items_.subspan(range.begin, range.count());
@@ -136,8 +144,8 @@ private:
                   [](const BvhItem& a, const BvhItem& b) { return a.number < b.number; });
     }
 
-    /// Numbers the leaves along the items, and the nodes depth first, neither of which depends
-    /// on who built them when.
+    /// Numbers the leaves along the items, and the nodes depth first. Neither depends on the order
+    /// in which threads built them.
     [[nodiscard]] Bvh finish()
     {
         Bvh bvh;

@@ -34,7 +34,7 @@ void set_box(abi::BvhNode& node, std::size_t slot, const Box4& box)
 void refit_bvh(Bvh& bvh, std::span<const Box4> leaf_boxes)
 {
     std::vector<Box4> boxes(bvh.nodes.size());
-    // Children stand behind their node.
+    // From the last node: children come after their node.
     for (std::size_t i = bvh.nodes.size(); i-- > 0;) {
         abi::BvhNode& node = bvh.nodes[i];
         for (std::size_t slot = 0; slot < abi::node_width; ++slot) {

@@ -8,13 +8,19 @@
 namespace packtrace {
 namespace {
 
+/// Bins on each axis, as many as Wald took (2007).
 constexpr int bin_count = 16;
 
-/// Larger ranges are looked at by several threads.
+/// Bins are a little wider than a bin_count-th of the range, so that the last centre falls into the
+/// last bin however its place is rounded.
+constexpr float bin_scale = 0.999f;
+
+/// Larger ranges are read by several threads: enough work for a task to be worth its start.
 constexpr std::size_t parallel_items = std::size_t{1} << 15;
 
-/// Which bin of an axis an item falls into. Centres that are too far apart for a float to say how
-/// far all fall into the first, and centres too close together into the first and the last.
+/// Which bin on each axis a centre falls into. If the centres are so far apart that their distance
+/// overflows, all fall into the first bin; if they are so close that the scale overflows, into the
+/// first and the last.
 struct Binning {
     Float4 start, scale;
 
@@ -23,16 +29,16 @@ struct Binning {
         const Float4 size = centroids.high - centroids.low;
         for (int axis = 0; axis < 4; ++axis)
             scale[axis] = axis < 3 && size[axis] > 0.0f
-                              ? static_cast<float>(bin_count) * 0.999f / size[axis]
+                              ? static_cast<float>(bin_count) * bin_scale / size[axis]
                               : 0.0f;
     }
 
-    /// By axis; the fourth says nothing.
+    /// By axis; the fourth value has no meaning.
     [[nodiscard]] Int4 operator()(Float4 center) const
     {
         constexpr auto last = static_cast<float>(bin_count - 1);
         const Float4 place = (center - start) * scale;
-        // In this order: NaN is not larger than 0, which puts it into the first bin.
+        // In this order NaN falls into the first bin, because it is not larger than 0.
         const Float4 clamped = smaller(larger(place, Float4{}), Float4{last, last, last, last});
         return __builtin_convertvector(clamped, Int4);
     }
@@ -79,12 +85,13 @@ void fill_bins(std::span<const BvhItem> items, const Binning& binning, Bins& bin
 }
 
 struct Cut {
-    int axis = -1;
-    int bin = 0;  ///< the first of the upper side
+    int axis = -1;  ///< -1: none has a finite cost
+    int bin = 0;    ///< the first bin of the upper side
     float cost = std::numeric_limits<float>::infinity();
 };
 
-/// Area times count on both sides of every boundary of an axis.
+/// Compares the boundaries between an axis' bins with the best cut so far. A cut costs area times
+/// count, summed over both sides.
 void look_for_cut(const Bins& bins, int axis, Cut& best)
 {
     float lower_cost[bin_count] = {};
@@ -107,8 +114,8 @@ void look_for_cut(const Bins& bins, int axis, Cut& best)
     }
 }
 
-/// Sorts the items to the two sides of a cut, their centres' boxes with them; returns how many are
-/// below. Every item changes places, which costs less than a branch that nobody can guess.
+/// Sorts the items to the two sides of a cut and finds the boxes of their centres; returns how many
+/// are below. Every item is swapped, which costs less than a mispredicted branch.
 std::size_t sort_sides(std::span<BvhItem> items, const Binning& binning, const Cut& cut,
                        Box4 (&centroids)[2])
 {
@@ -125,7 +132,7 @@ std::size_t sort_sides(std::span<BvhItem> items, const Binning& binning, const C
     return below;
 }
 
-/// Both sides' boxes, as they are.
+/// Both halves with their boxes, which are computed from their items.
 std::pair<BvhRange, BvhRange> halves(std::span<const BvhItem> items, const BvhRange& range,
                                      std::size_t middle)
 {

@@ -9,7 +9,7 @@
 #include <span>
 #include <utility>
 
-// Ranges of items, and where they are split.
+// Ranges of items, and how they are split.
 namespace packtrace {
 
 inline Float4 load4(const float* from)
@@ -19,7 +19,7 @@ inline Float4 load4(const float* from)
     return v;
 }
 
-/// A face at NaN bounds nothing: it counts as infinitely far.
+/// A face at NaN counts as infinitely far away.
 inline Float4 low_of(const BvhItem& item)
 {
     const Float4 low = load4(item.low);
@@ -39,8 +39,9 @@ inline Float4 finite(Float4 a)
     return larger(smaller(a, most), -most);
 }
 
-/// The centre of an item's box, finite whatever the box: halves are added, which cannot overflow.
-/// The fourth is 0, as the integers there would make numbers that some processors are slow at.
+/// The centre of an item's box, finite for every box: halves are added, which cannot overflow. The
+/// fourth component is 0, because the integers there would be subnormal floats, which are slow on
+/// some processors.
 inline Float4 centroid(const BvhItem& item)
 {
     constexpr Int4 first_three{-1, -1, -1, 0};
@@ -48,7 +49,7 @@ inline Float4 centroid(const BvhItem& item)
     return reinterpret_cast<Float4>(reinterpret_cast<Int4>(center) & first_three);
 }
 
-/// Items that may become a node, a leaf or part of either.
+/// A range of items, which may become a node, a leaf or part of either.
 struct BvhRange {
     std::size_t begin = 0;
     std::size_t end = 0;
@@ -63,16 +64,17 @@ struct BvhRange {
 
 [[nodiscard]] BvhRange range_of(std::span<const BvhItem> items, std::size_t begin, std::size_t end);
 
-/// Sorts the range's items into two ranges where the surface area heuristic is least; by
-/// `split_number` when no cut has a finite cost, as where all centres are in one place. `range`
-/// has two items at least.
+/// Sorts a range's items into two ranges by the cut of least cost by the surface area heuristic; by
+/// split_number() if no cut has a finite cost, as when all centres are equal. `range` has at least
+/// two items.
 [[nodiscard]] std::pair<BvhRange, BvhRange> split(std::span<BvhItem> items, const BvhRange& range);
 
-/// The same into two halves along the longest axis, to an item.
+/// Sorts them into two ranges of equal number, or one more, along the axis on which the centres are
+/// furthest apart.
 [[nodiscard]] std::pair<BvhRange, BvhRange> split_number(std::span<BvhItem> items,
                                                          const BvhRange& range);
 
-/// The same by kind; the range has several.
+/// Sorts them into the items of one kind and the others; the range has several kinds.
 [[nodiscard]] std::pair<BvhRange, BvhRange> split_kinds(std::span<BvhItem> items,
                                                         const BvhRange& range);
 

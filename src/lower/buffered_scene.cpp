@@ -7,8 +7,9 @@
 namespace packtrace {
 namespace {
 
-/// About the share of shadow rays from what the eye sees that run apart; those from mirrors do.
-constexpr double spread_share_of_eye = 0.05;
+/// The share of shadow rays from camera rays' hits that are spread, roughly. Shadow rays from the
+/// hits of mirrored rays all are.
+constexpr double spread_share_of_camera_rays = 0.05;
 
 }  // namespace
 
@@ -17,7 +18,7 @@ double camera_rays_for_buffers(const PackedScene<Real>& scene, bool bounces)
 {
     if (scene.view().lighting.transparent_shadows)
         return std::numeric_limits<double>::infinity();
-    return scene.casters().rays_for_light_buffer() / (bounces ? 1.0 : spread_share_of_eye);
+    return scene.casters().rays_for_light_buffer() / (bounces ? 1.0 : spread_share_of_camera_rays);
 }
 
 template <class Real>

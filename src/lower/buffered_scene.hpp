@@ -7,17 +7,18 @@
 
 namespace packtrace {
 
-/// After how many camera rays lights' own views of a scene pay for themselves in frames whose rays
-/// go on from surfaces (`bounces`) or don't; infinite where lights can't have any.
+/// From how many camera rays on light buffers pay for being built, in frames with mirrored or
+/// refracted rays (`bounces`) or without; infinite where lights can't have buffers.
 template <class Real>
 [[nodiscard]] double camera_rays_for_buffers(const PackedScene<Real>& scene, bool bounces);
 
-/// A packed scene whose lights that cast shadows have their own views of a hierarchy of spheres,
-/// where shadow rays that share no way are looked for in single precision and exact mode.
+/// A packed scene in which each light that casts shadows has a buffer, a view of the BVH from the
+/// light. Shadow rays that are spread look up their occluders there, in single precision and exact
+/// mode.
 template <class Real>
 class BufferedScene {
 public:
-    /// Makes the views on the threads of the TBB arena the call runs in. `scene` outlives this.
+    /// Builds the buffers on the threads of the TBB arena of the caller. `scene` must outlive this.
     explicit BufferedScene(const PackedScene<Real>& scene);
     BufferedScene(const BufferedScene&) = delete;
     BufferedScene& operator=(const BufferedScene&) = delete;
@@ -28,13 +29,13 @@ public:
         return view_;
     }
 
-    /// Held besides the scene.
+    /// Memory besides that of the scene.
     [[nodiscard]] std::size_t bytes() const;
 
 private:
     std::vector<PackedLightBuffer> buffers_;  // by light
     AlignedArray<abi::LightBuffer> buffer_views_;
-    abi::SceneView<Real> casters_;  // where some objects cast no shadow
+    abi::SceneView<Real> casters_;  // used where some objects cast no shadow
     abi::SceneView<Real> view_;
 };
 

@@ -13,17 +13,20 @@ namespace {
 
 constexpr double infinite = std::numeric_limits<double>::infinity();
 
-/// A direction in single precision is off by 2^-24 of its length in each coordinate: beyond so many
-/// sizes of a body rays from a light miss it by too much.
+// docs/numerics_derivations.md derives these numbers.
+
+/// A direction in single precision is off by 2^-24 of its length in each coordinate. A light more
+/// than this many sizes of a body away misses it by too much.
 constexpr double largest_distance = 0x1p14;
 
-/// So many radii of a ball around all bodies a light has to be away from them.
+/// A light is well outside a ball if it is this many radii away.
 constexpr double well_outside = 4.0;
 
-/// The share of its distance from the bodies by which a light has to be off what has no bounds.
+/// A light is well off an unbounded surface if its distance from it is more than this share of its
+/// distance from the bodies.
 constexpr double well_off = 0x1p-10;
 
-/// The bodies that have bounds.
+/// The bounded bodies.
 struct Bodies {
     Vec3 low{infinite};
     Vec3 high{-infinite};
@@ -37,20 +40,20 @@ struct Bodies {
     }
 };
 
-/// How far a point is from a sphere's surface.
+/// The distance of a point from a sphere's surface.
 template <class Sphere>
 double height_over(const Sphere& sphere, const Vec3& point)
 {
     return std::abs(glm::length(point - sphere.center) - sphere.radius);
 }
 
-/// Spheres that a light is not well outside of, say one that is the ground.
+/// Spheres that the light is not well outside of, such as a ground sphere.
 struct LargeSpheres {
-    double least = infinite;  ///< the smallest one's radius
-    double off = infinite;    ///< how far the light is from their surfaces
-    double reach = 0.0;       ///< and at most from a point of one that it may shine on
+    double least = infinite;  ///< the smallest radius
+    double off = infinite;    ///< the distance of the light from their surfaces
+    double farthest = 0.0;  ///< the largest distance of the light from a point that it may shine on
 
-    /// False where the sphere is a body as others are.
+    /// Adds a large sphere; false for a sphere that the light is well outside of.
     template <class Sphere>
     bool add(const Sphere& sphere, const Vec3& light)
     {
@@ -63,39 +66,42 @@ struct LargeSpheres {
                                : std::sqrt(height * (distance + sphere.radius));
         least = std::min(least, sphere.radius);
         off = std::min(off, height);
-        reach = std::max(reach, way);
+        farthest = std::max(farthest, way);
         return true;
     }
 
-    /// Whether rays from any of these points pass the light, and what is as near to it as they are,
-    /// where they should.
-    [[nodiscard]] bool are_met_well() const
+    /// Whether rays from all such points to the light are exact enough.
+    [[nodiscard]] bool are_hit_well() const
     {
-        return std::min(least, off) > well_off * reach;
+        return std::min(least, off) > well_off * farthest;
     }
 };
 
-/// How far a point is from what has no bounds, at least.
+// A lower bound of the distance of a point from a surface; infinite for a bounded one.
+
 double distance_to(const LoweredPlane& plane, const Vec3& point)
 {
     return std::abs(glm::dot(plane.normal, point - plane.point));
 }
-/// On a way δ a quadric's F changes by |∇F| |δ| + bend |δ|² at most, where bend is the sum of its
-/// squares' sizes: the way to F = 0 is no shorter than the root of that.
+
+/// Along a step δ a quadric's F changes by at most |∇F| |δ| + curvature |δ|², where curvature is
+/// the sum of the squares' magnitudes. The distance to F = 0 is at least the root of this
+/// quadratic.
 double distance_to_side(const LoweredQuadric& quadric, const Vec3& point)
 {
     const Vec3 p = quadric.inverse * (point - quadric.center);
-    const Vec3 half_slope = quadric.square * p + Vec3(0.0, 0.0, quadric.linear);
+    const Vec3 half_gradient = quadric.square * p + Vec3(0.0, 0.0, quadric.linear);
     const double value =
-        std::abs(glm::dot(half_slope + Vec3(0.0, 0.0, quadric.linear), p) + quadric.constant);
-    const double slope = 2.0 * glm::length(half_slope * quadric.inverse);
-    double bend = 0.0;
+        std::abs(glm::dot(half_gradient + Vec3(0.0, 0.0, quadric.linear), p) + quadric.constant);
+    const double gradient = 2.0 * glm::length(half_gradient * quadric.inverse);
+    double curvature = 0.0;
     for (int axis = 0; axis < 3; ++axis)
-        bend += std::abs(quadric.square[axis]) *
-                glm::dot(glm::row(quadric.inverse, axis), glm::row(quadric.inverse, axis));
-    const double steepest = slope + std::sqrt(slope * slope + 4.0 * bend * value);
+        curvature += std::abs(quadric.square[axis]) *
+                     glm::dot(glm::row(quadric.inverse, axis), glm::row(quadric.inverse, axis));
+    const double steepest = gradient + std::sqrt(gradient * gradient + 4.0 * curvature * value);
     return steepest > 0.0 ? 2.0 * value / steepest : 0.0;
 }
+
 double distance_to(const LoweredQuadric& quadric, const Vec3& point)
 {
     double distance = distance_to_side(quadric, point);
@@ -107,13 +113,14 @@ double distance_to(const LoweredQuadric& quadric, const Vec3& point)
     }
     return distance;
 }
+
 template <class Surface>
 double distance_to(const Surface&, const Vec3&)
 {
     return infinite;
 }
 
-/// What a light may be far from.
+/// All surfaces of a scene, as seen from one light.
 class Surroundings {
 public:
     explicit Surroundings(const Vec3& light) : light_(light)
@@ -122,14 +129,14 @@ public:
 
     void add(const LoweredSphere& sphere)
     {
-        if (spheres_.add(sphere, light_))
+        if (large_spheres_.add(sphere, light_))
             any_large_ = true;
         else
             bodies_.add(box_of(sphere));
     }
     void add(const LoweredAnchoredSphere& sphere)
     {
-        spheres_.add(sphere, light_);
+        large_spheres_.add(sphere, light_);
         off_ = std::min(off_, height_over(sphere, light_));
     }
     template <class Surface>
@@ -138,7 +145,7 @@ public:
         if constexpr (requires { box_of(surface); })
             if (is_bounded(surface))
                 return bodies_.add(box_of(surface));
-        endless_ = true;
+        any_unbounded_ = true;
         off_ = std::min(off_, distance_to(surface, light_));
     }
 
@@ -146,8 +153,8 @@ public:
     {
         if (bodies_.least == infinite)
             return false;
-        // Of a surface without bounds there are points that are too far off for large spheres.
-        if (any_large_ && (endless_ || !spheres_.are_met_well()))
+        // Some points of an unbounded surface are too far away for large spheres.
+        if (any_large_ && (any_unbounded_ || !large_spheres_.are_hit_well()))
             return false;
         const double radius = 0.5 * glm::length(bodies_.high - bodies_.low);
         const double distance = glm::length(light_ - 0.5 * (bodies_.low + bodies_.high));
@@ -158,10 +165,10 @@ public:
 private:
     Vec3 light_;
     Bodies bodies_;
-    LargeSpheres spheres_;
-    bool any_large_ = false;  ///< beside anchored ones
-    bool endless_ = false;    ///< something has no bounds
-    double off_ = infinite;   ///< the light from what is no body
+    LargeSpheres large_spheres_;
+    bool any_large_ = false;  ///< some large sphere is not anchored
+    bool any_unbounded_ = false;
+    double off_ = infinite;  ///< distance of the light from unbounded surfaces and anchored spheres
 };
 
 }  // namespace

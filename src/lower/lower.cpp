@@ -14,11 +14,11 @@
 #include <variant>
 #include <vector>
 
-// Runs of objects are lowered in parallel, and joined in their order.
+// Runs of objects are lowered in parallel and joined in order.
 namespace packtrace {
 namespace {
 
-/// By surface whether it casts a shadow; none where all do.
+/// By surface whether it casts a shadow; empty where all do.
 std::vector<bool> casting_surfaces(const Scene& scene, const LoweredScene& lowered)
 {
     const std::vector<bool> objects = casting_objects(scene);
@@ -29,7 +29,7 @@ std::vector<bool> casting_surfaces(const Scene& scene, const LoweredScene& lower
     return casts;
 }
 
-/// Where a part's lists begin in the whole scene's.
+/// Where the lists of a part begin in the lists of the whole scene.
 struct Place {
     std::array<std::size_t, kind_count> lists{};
     std::size_t checkers = 0;
@@ -46,15 +46,15 @@ struct Place {
 
 using MaterialNumbers = std::vector<std::int32_t>;
 
-/// Appends a part's materials; returns their new numbers.
+/// Appends the materials of a part; returns their new numbers.
 MaterialNumbers join_materials(const LoweredScene& part, RecentMaterials& recent,
                                LoweredScene& whole)
 {
     MaterialNumbers numbers;
     for (const LoweredMaterial& material : part.materials) {
-        // The two of a checker stay side by side.
+        // The two materials of a checker stay next to each other.
         if (part.checkers.empty()) {
-            numbers.push_back(recent.place_of(material, whole.materials));
+            numbers.push_back(recent.index_of(material, whole.materials));
         } else {
             numbers.push_back(static_cast<std::int32_t>(whole.materials.size()));
             whole.materials.push_back(material);
@@ -110,9 +110,9 @@ void clear(LoweredScene& part)
     part.faces_viewer.clear();
 }
 
-/// Appends what runs of objects lowered to, each with its surfaces, materials and checkers
-/// numbered from 0, in order; `recent` knows the materials of the whole. The parts' lists are
-/// empty then, but keep their memory.
+/// Appends the parts in order. Each part has its surfaces, materials and checkers numbered from 0;
+/// `recent` knows the materials of the whole scene. Leaves the lists of the parts empty, with their
+/// memory.
 void join_parts(std::span<LoweredScene> parts, RecentMaterials& recent, LoweredScene& whole)
 {
     std::vector<Place> places(1, Place{}.behind(whole));
@@ -128,10 +128,10 @@ void join_parts(std::span<LoweredScene> parts, RecentMaterials& recent, LoweredS
     });
 }
 
-/// Objects that one task lowers. The numbers of materials depend on it, pictures do not.
+/// Objects that one task lowers. The numbers of materials depend on it; pictures do not.
 constexpr std::size_t part_objects = 4096;
 
-/// What is not yet joined stays small enough for caches.
+/// Parts that are lowered before they are joined: few enough for the caches.
 constexpr std::size_t parts_at_once = 16;
 
 void lower_part(const Scene& scene, std::size_t begin, std::size_t end, LoweredScene& part)
@@ -152,7 +152,7 @@ void lower_part(const Scene& scene, std::size_t begin, std::size_t end, LoweredS
     }
 }
 
-/// The objects from `begin` on, as many as the parts hold.
+/// Lowers the objects from `begin` on, as many as the parts hold.
 void lower_parts(const Scene& scene, std::size_t begin, std::span<LoweredScene> parts)
 {
     const std::size_t objects = scene.objects.size();
@@ -175,8 +175,8 @@ void lower_objects(const Scene& scene, LoweredScene& lowered)
     }
 }
 
-/// The glass objects that hold the eye, in the order in which they are left going `forward`, the
-/// first left innermost; at equal distance the lower object number. At most glass_depth.
+/// The glass objects around the eye, in the order in which a ray along `forward` leaves them; at
+/// equal distance the lower object number first. At most glass_depth.
 std::vector<std::int32_t> glass_around(const Vec3& eye, const Vec3& forward,
                                        const LoweredScene& lowered)
 {
@@ -190,7 +190,7 @@ std::vector<std::int32_t> glass_around(const Vec3& eye, const Vec3& forward,
             exits.emplace_back(*exit, index.object);
     });
     std::sort(exits.begin(), exits.end());
-    // Of too many, the outermost are remembered, as if the ray had entered them one by one.
+    // If there are too many, the outermost ones count, as if the ray had entered them one by one.
     const std::size_t depth = abi::glass_depth;
     const std::size_t skip = exits.size() > depth ? exits.size() - depth : 0;
     std::vector<std::int32_t> inside;
@@ -208,7 +208,7 @@ LoweredScene lower(const Scene& scene, Accuracy accuracy, SelfHits self_hits)
     lower_model_rules(scene, lowered);
     lower_objects(scene, lowered);
     part_anchored_spheres(lowered);
-    lowered.tree_reach = tree_reach(lowered);
+    lowered.bvh_extent = bvh_extent(lowered);
     lowered.self_hits = self_hits;
     lowered.casts_shadow = casting_surfaces(scene, lowered);
 

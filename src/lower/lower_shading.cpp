@@ -11,6 +11,12 @@
 namespace packtrace {
 namespace {
 
+/// The t_min that notes 001 and 004 give rays.
+constexpr double note_epsilon = 0.001;
+
+/// Note 001 shows only what lies behind the viewport, where camera rays have t = 1.
+constexpr double scratch_camera_t_min = 1.0;
+
 constexpr std::size_t words = sizeof(LoweredMaterial) / sizeof(std::uint64_t);
 static_assert(sizeof(LoweredMaterial) == 20 * sizeof(double), "no byte between the values");
 
@@ -24,14 +30,14 @@ std::uint64_t hash_of(const LoweredMaterial& material)
     return hash >> 32u;
 }
 
-/// Bit for bit: -0 and 0 shade alike, but are two materials.
+/// Whether both have the same bits: -0 and 0 shade alike, but are two materials.
 bool same(const LoweredMaterial& a, const LoweredMaterial& b)
 {
     return std::memcmp(&a, &b, sizeof a) == 0;
 }
 
-/// Note 001: the colour tints all of the local light, the highlight too; the mirror is white
-/// and takes its share from the local light.
+/// Note 001: the colour multiplies all of the local light, highlights included. The mirror is
+/// white, and its share is taken from the local light.
 LoweredMaterial lower_model(const ScratchMaterial& material, const Rgb& color,
                             const LightSums& lights)
 {
@@ -47,7 +53,7 @@ LoweredMaterial lower_model(const ScratchMaterial& material, const Rgb& color,
     return lowered;
 }
 
-/// Note 000: Ks is mirror and highlight, Kr the transmitted share, both white.
+/// Note 000: Ks is the mirror and the highlight, Kr the transmitted share; both are white.
 LoweredMaterial lower_model(const SketchMaterial& material, const Rgb& color,
                             const LightSums& lights)
 {
@@ -60,7 +66,7 @@ LoweredMaterial lower_model(const SketchMaterial& material, const Rgb& color,
             .ior = material.ior};
 }
 
-/// Note 002, as note 000 with other names.
+/// Note 002: as note 000, with other names.
 LoweredMaterial lower_model(const WhittedMaterial& material, const Rgb& color,
                             const LightSums& lights)
 {
@@ -69,7 +75,7 @@ LoweredMaterial lower_model(const WhittedMaterial& material, const Rgb& color,
     return lower_model(same, color, lights);
 }
 
-/// Note 004: r0 counts once for each light, whatever is in its way.
+/// Note 004: r0 counts once for each light, occluded or not.
 LoweredMaterial lower_model(const ShaderMaterial& material, const Rgb& color,
                             const LightSums& lights)
 {
@@ -96,7 +102,7 @@ LoweredMaterial lower_color(const Object& object, const Rgb& color, const LightS
                       object.material.model);
 }
 
-/// u·P - u·point of the plane's own space, as a function of the world's P.
+/// u·P - u·point of the plane's own space, as a function of P in world space.
 LoweredChecker lower_checker(const Plane& plane, const Mat4& transform, double size)
 {
     const Mat3 inverse = glm::inverse(Mat3(transform));
@@ -110,7 +116,7 @@ void lower_lights(const Scene& scene, LoweredScene& lowered)
     for (Light light : scene.lights) {
         if (light.type == LightType::ambient)
             continue;
-        // Where rays are unit, so is the way to a light without a place.
+        // In models with unit rays, directions to lights are unit, too.
         if (light.type == LightType::directional && lowered.units == abi::RayUnits::unit)
             light.vector = glm::normalize(light.vector);
         lowered.lights.push_back(light);
@@ -127,22 +133,22 @@ Rgb limit_color(const Scene& scene)
 
 }  // namespace
 
-std::int32_t RecentMaterials::place_of(const LoweredMaterial& material,
+std::int32_t RecentMaterials::index_of(const LoweredMaterial& material,
                                        std::vector<LoweredMaterial>& materials)
 {
-    const auto is_at = [&](std::int32_t place) {
-        return place >= 0 && same(materials[static_cast<std::size_t>(place)], material);
+    const auto is_at = [&](std::int32_t index) {
+        return index >= 0 && same(materials[static_cast<std::size_t>(index)], material);
     };
-    // Neighbours are often alike, and comparing costs less than a hash.
+    // Neighbours often have the same material, and comparing costs less than a hash.
     if (is_at(latest_))
         return latest_;
-    std::int32_t& place = places_[hash_of(material) % places_.size()];
-    if (!is_at(place)) {
-        place = static_cast<std::int32_t>(materials.size());
+    std::int32_t& index = indices_[hash_of(material) % remembered];
+    if (!is_at(index)) {
+        index = static_cast<std::int32_t>(materials.size());
         materials.push_back(material);
     }
-    latest_ = place;
-    return place;
+    latest_ = index;
+    return index;
 }
 
 LightSums sum_lights(const Scene& scene)
@@ -164,7 +170,7 @@ abi::MaterialIndex lower_material(const Object& object, std::int32_t number,
     const LoweredMaterial first = lower_color(object, material.color, lights);
     const auto* plane = std::get_if<Plane>(&object.surface);
     if (!material.checker || plane == nullptr)
-        return {recent.place_of(first, lowered.materials), -1, number};
+        return {recent.index_of(first, lowered.materials), -1, number};
 
     const abi::MaterialIndex index{static_cast<std::int32_t>(lowered.materials.size()),
                                    static_cast<std::int32_t>(lowered.checkers.size()), number};
@@ -184,11 +190,11 @@ void lower_model_rules(const Scene& scene, LoweredScene& lowered)
     lowered.shadows = scene.shadows != ShadowKind::none;
     lowered.visible_lights = scene.illumination == Illumination::sketch;
     lowered.units = scratch ? abi::RayUnits::as_given : abi::RayUnits::unit;
-    // The other notes' listings do not ask on which side of the surface the light is.
+    // The other notes make highlights of lights behind the surface, too.
     lowered.highlights_behind =
         scene.illumination != Illumination::whitted && scene.illumination != Illumination::general;
-    lowered.epsilon = 0.001;
-    lowered.camera_t_min = scratch ? 1.0 : 0.001;
+    lowered.epsilon = note_epsilon;
+    lowered.camera_t_min = scratch ? scratch_camera_t_min : note_epsilon;
     lower_lights(scene, lowered);
 }
 

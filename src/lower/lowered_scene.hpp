@@ -12,7 +12,7 @@
 
 namespace packtrace {
 
-/// Coefficients of the one shading equation (abi::MaterialRecord).
+/// Coefficients of the common shading equation (abi::MaterialRecord).
 struct LoweredMaterial {
     Rgb ambient{0.0};
     Rgb diffuse{0.0};
@@ -30,17 +30,17 @@ struct LoweredChecker {
     Vec3 v{0.0};
 };
 
-/// A scene brought down to what the kernels know: surfaces by kind, one equation of shading,
-/// world space, double precision.
+/// A scene in the terms of the kernels: surfaces sorted by kind, one shading equation, world space,
+/// double precision.
 struct LoweredScene : SurfaceLists {
     std::vector<abi::MaterialIndex> material_index;  ///< by surface
-    std::vector<std::uint8_t> faces_viewer;          ///< by surface: normals turn to the ray
-    std::vector<bool> casts_shadow;                  ///< by surface; none: all do
+    std::vector<std::uint8_t> faces_viewer;          ///< by surface: normals are turned to the ray
+    std::vector<bool> casts_shadow;                  ///< by surface; empty: all do
     std::vector<LoweredMaterial> materials;          ///< may be shared by objects
     std::vector<LoweredChecker> checkers;
-    std::vector<Light> lights;  ///< none ambient
+    std::vector<Light> lights;  ///< without the ambient ones
     Rgb background{0.0};
-    Rgb limit_color{0.0};  ///< what rays beyond the depth limit bring
+    Rgb limit_color{0.0};  ///< colour of rays beyond the depth limit
     int max_depth = 0;
     double min_weight = 0.0;  ///< least_traced_weight()
     bool shadows = true;
@@ -48,35 +48,36 @@ struct LoweredScene : SurfaceLists {
     bool transparent_shadows = false;
     bool visible_lights = false;
     abi::RayUnits units = abi::RayUnits::as_given;
-    bool highlights_behind = false;  ///< lights behind a surface make highlights on it too
-    double epsilon = 0.0;            ///< start of secondary and shadow rays with SelfHits::note
+    bool highlights_behind = false;  ///< lights behind a surface make highlights on it, too
+    double epsilon = 0.0;            ///< t_min of secondary and shadow rays with SelfHits::note
     SelfHits self_hits = SelfHits::note;
-    double camera_t_min = 0.0;  ///< start of camera rays
-    /// Objects that reach further are in no hierarchy (tree_objects.hpp).
-    double tree_reach = std::numeric_limits<double>::infinity();
+    double camera_t_min = 0.0;  ///< t_min of camera rays
+    /// Objects with a larger coordinate are not in the BVH (tree_objects.hpp).
+    double bvh_extent = std::numeric_limits<double>::infinity();
     std::vector<std::int32_t> eye_inside;  ///< glass objects around the eye, innermost first
-    abi::Features features;                ///< `exact` as the accuracy asked for has it
-    bool highlights = false;               ///< of some material
-    bool bounces = false;                  ///< mirrored rays, or refracted ones
+    abi::Features features;                ///< `exact` follows the accuracy
+    bool highlights = false;               ///< some material has one
+    bool bounces = false;                  ///< there are mirrored or refracted rays
 };
 
-/// Lowers a scene on the threads of the TBB arena the call runs in; the result does not depend on
+/// Lowers a scene on the threads of the TBB arena of the caller; the result does not depend on
 /// their number. Throws as validate() does.
 [[nodiscard]] LoweredScene lower(const Scene& scene, Accuracy accuracy = Accuracy::exact,
                                  SelfHits self_hits = default_self_hits);
 
-/// The most light that a ray can bring in each channel, by its generation from 0 (camera rays) to
+/// The largest light that a ray can bring in each channel, by generation from 0 (camera rays) to
 /// max_depth. docs/numerics_derivations.md derives it.
 [[nodiscard]] std::vector<Rgb> most_light(const LoweredScene& lowered);
 
-/// The accuracy that counts for kernels of `Real`: doubles need nothing wider.
+/// The accuracy of kernels of `Real`: always `fast` in double, because no wider precision decides
+/// unsure rays.
 template <class Real>
 [[nodiscard]] Accuracy accuracy_in(const RenderOptions& options)
 {
     return sizeof(Real) == sizeof(float) ? options.accuracy : Accuracy::fast;
 }
 
-/// Lowers a scene for kernels of `Real` as options of rendering have it.
+/// Lowers a scene for kernels of `Real` by the options of rendering.
 template <class Real>
 [[nodiscard]] LoweredScene lower_for(const Scene& scene, const RenderOptions& options)
 {

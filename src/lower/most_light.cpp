@@ -7,10 +7,19 @@
 namespace packtrace {
 namespace {
 
-/// Roundoff of single precision, the coarsest that pictures are rendered in.
+/// Unit roundoff of single precision, the lowest precision of pictures.
 constexpr double roundoff = 0x1p-24;
 
-/// What a light's share can grow to on its way through glass: each object multiplies it once, and
+// docs/numerics_derivations.md derives the numbers of roundings.
+
+/// R·V exceeds 1 by at most this many roundoffs.
+constexpr double cosine_roundoffs = 32.0;
+
+/// Roundings of one generation's sums, and of each light's part in them.
+constexpr double sum_roundoffs = 32.0;
+constexpr double light_roundoffs = 8.0;
+
+/// The largest factor of a light's share through glass: each object multiplies the share once, and
 /// a surface belongs to one object.
 Rgb largest_share(const LoweredScene& lowered)
 {
@@ -23,7 +32,7 @@ Rgb largest_share(const LoweredScene& lowered)
     return share;
 }
 
-/// The intensities of all lights that shine from a place or a direction.
+/// The sum of the intensities of all lights but the ambient ones.
 Rgb all_lights(const LoweredScene& lowered)
 {
     Rgb sum(0.0);
@@ -32,17 +41,17 @@ Rgb all_lights(const LoweredScene& lowered)
     return sum;
 }
 
-/// What a ray brings that hits nothing.
+/// The largest light of a ray that hits nothing.
 Rgb most_outside(const LoweredScene& lowered)
 {
     const Rgb background = glm::abs(lowered.background);
     return lowered.visible_lights ? glm::max(background, all_lights(lowered)) : background;
 }
 
-/// All lights at their best place: N·L is 1, and so is R·V but for its rounding.
+/// The largest local light: N·L is 1 for all lights, and R·V is 1 up to rounding.
 Rgb most_local(const LoweredMaterial& material, const Rgb& lights)
 {
-    const Rgb highlight(std::exp(32.0 * roundoff * material.shininess));
+    const Rgb highlight(std::exp(cosine_roundoffs * roundoff * material.shininess));
     return glm::abs(material.ambient) +
            lights * (glm::abs(material.diffuse) + highlight * glm::abs(material.highlight));
 }
@@ -53,7 +62,8 @@ std::vector<Rgb> most_light(const LoweredScene& lowered)
 {
     const Rgb lights = all_lights(lowered) * largest_share(lowered);
     const double rounded =
-        1.0 + (32.0 + 8.0 * static_cast<double>(lowered.lights.size())) * roundoff;
+        1.0 +
+        (sum_roundoffs + light_roundoffs * static_cast<double>(lowered.lights.size())) * roundoff;
     const Rgb outside = most_outside(lowered);
     std::vector<Rgb> most(static_cast<std::size_t>(lowered.max_depth) + 1, outside);
     // From the last generation, whose hits have no children, to the first.

@@ -14,17 +14,17 @@
 namespace packtrace {
 namespace {
 
-/// Whether the surface stays in a hierarchy after all is lowered.
+/// Whether the surface is in the BVH of a scene that is lowered anew.
 template <class Kind>
-bool stays_in_tree(const LoweredScene& lowered, const Kind& surface)
+bool stays_in_bvh(const LoweredScene& lowered, const Kind& surface)
 {
     if constexpr (std::is_same_v<Kind, LoweredSphere>)
         if (is_anchored(surface))
             return false;
-    return is_in_tree(lowered, surface);
+    return is_in_bvh(lowered, surface);
 }
 
-/// Objects one after another; its lists keep their memory.
+/// Moves objects one after another.
 class ObjectMover {
 public:
     ObjectMover(const abi::SurfaceIndex* index, LoweredScene& lowered)
@@ -50,7 +50,7 @@ private:
     int lower_shape(const Scene& scene, const MovedShape& shape, std::int32_t surface)
     {
         if (shape.plain) {
-            // As lower_sphere() has it, where -0 becomes 0.
+            // As in lower_sphere(): -0 becomes 0.
             now_.spheres.push_back({shape.sphere.center + Vec3(0.0), shape.sphere.radius, surface});
             return 1;
         }
@@ -65,8 +65,8 @@ private:
         if (at.kind != Kind::kind)
             return false;
         Kind& before = surfaces[at.record];
-        if (pieces_of(before) != pieces || !stays_in_tree(lowered_, before) ||
-            !stays_in_tree(lowered_, now))
+        if (pieces_of(before) != pieces || !stays_in_bvh(lowered_, before) ||
+            !stays_in_bvh(lowered_, now))
             return false;
         before = std::move(now);
         return true;
@@ -75,7 +75,7 @@ private:
     [[nodiscard]] std::int32_t first_surface(std::int32_t object) const
     {
         const auto& surfaces = lowered_.material_index;
-        // Every object has one at least.
+        // Every object has at least one surface: here each has exactly one.
         if (static_cast<std::size_t>(surfaces.back().object) + 1 == surfaces.size())
             return object;
         const auto first = std::lower_bound(
@@ -86,7 +86,7 @@ private:
 
     const abi::SurfaceIndex* index_;
     LoweredScene& lowered_;
-    SurfaceLists now_;
+    SurfaceLists now_;  ///< of one object; a member, so that its memory is reused
 };
 
 }  // namespace
@@ -94,6 +94,7 @@ private:
 bool move_objects(const Scene& scene, std::span<const MovedShape> moved,
                   const abi::SurfaceIndex* index, LoweredScene& lowered)
 {
+    // Enough work for a task to be worth its start.
     constexpr std::size_t task_objects = 1024;
     std::atomic<bool> all = true;
     tbb::parallel_for(tbb::blocked_range<std::size_t>(0, moved.size(), task_objects),

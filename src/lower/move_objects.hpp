@@ -8,10 +8,9 @@
 
 namespace packtrace {
 
-/// Puts the surfaces of some objects of the scene, each named once, to where they are now. `index`
-/// is that of the scene as packed. False, and `lowered` is of no more use, where a hierarchy can't
-/// go on with an object: its surface is of another kind now, or is or was none that a hierarchy
-/// holds.
+/// Moves the surfaces of some objects, each named once, to their new places. `index` is that of the
+/// packed scene. False, with `lowered` left unusable, if the BVH cannot be refitted: an object now
+/// has a surface of another kind, or it is not in the BVH before or after.
 [[nodiscard]] bool move_objects(const Scene& scene, std::span<const MovedShape> moved,
                                 const abi::SurfaceIndex* index, LoweredScene& lowered);
 

@@ -14,44 +14,60 @@
 namespace packtrace {
 namespace {
 
-/// Share of a cell that a sphere reaches beyond what it covers: far more than rounding does to
-/// where a ray lies in the grid.
+/// The cells of a sphere are found with this share of a cell as a margin: far more than the
+/// rounding error of a ray's place in the grid.
 constexpr double cell_margin = 0.02;
 
-/// Share by which a sphere is taken to be larger than it is, and smaller where it hides others.
+/// Spheres count as larger by this share, and as smaller where they hide others.
 constexpr double size_margin = 1e-4;
 
-/// Lights from which the spheres' ball has a wider tangent than this see cells too unlike in size.
-constexpr double widest = 3.0;
+/// By how much rounding may move a sphere's centre, as a share of its distance from the light.
+constexpr double center_margin = 1e-6;
 
-/// So many cells, to a sphere and to a cell, may spheres cover: they stand side by side in few.
-/// Where most of them are in each other, and their view would take more room than they, there is
-/// none: results/tree_designs.json.
+/// The ball around the spheres counts as larger by this factor, for rounding.
+constexpr double ball_room = 1.001;
+
+/// A parallel light's origin is this many of the ball's radii before its middle: in front of all
+/// spheres.
+constexpr double origin_distance = 1.5;
+
+/// A light for which the ball has a larger tangent gets no buffer: its cells would differ too much
+/// in size.
+constexpr double largest_tangent = 3.0;
+
+/// The spheres may together cover this many times as many cells as there are spheres and cells,
+/// else there is no buffer. Spheres side by side cover few cells. Where most overlap, the buffer
+/// would take more memory than the spheres (light_buffers_of_spheres_in_each_other in
+/// results/tree_designs.json).
 constexpr std::size_t most_cells = 64;
 
-/// About as many cells as spheres stand side by side: results/light_buffers.json.
+/// The depth of cells without spheres. Its square is still a float.
+constexpr double no_sphere_depth = 1e18;
+
+/// The grid's cells along each axis: about as many cells as spheres side by side
+/// (results/light_buffers.json).
 int grid_size(int blocks)
 {
     const int spheres = blocks * abi::node_width;
     return spheres < 20000 ? 64 : spheres < 200000 ? 128 : 256;
 }
 
-/// Share of their ball's radius by which spheres are taken to be nearer to parallel light.
+/// For parallel light, spheres count as nearer and as ending further away by this share of the
+/// grid's width.
 constexpr double depth_margin = 1e-4;
 
-/// Rounding moves where a point lies in the grid by no more than this share of |x| + |y| + |z|,
-/// in both axes: four roundings, and those of the axes.
+/// Rounding moves a point in the grid by at most this share of |x| + |y| + |z|, along both axes:
+/// four roundings, and those of the axes.
 constexpr double place_error = 0x1p-21;
 
-/// The light's axes, and how many cells there are to a tangent of 1, or for parallel light to a
-/// length of 1.
+/// The light's axes and its grid.
 struct LightAxes {
-    Vec3 origin;  ///< a point light's place
+    Vec3 origin;  ///< a point light's position
     Vec3 across;
     Vec3 up;
     Vec3 forward;
-    double scale;
-    int size;
+    double scale;  ///< cells for a tangent of 1; of parallel light, for a length of 1
+    int size;      ///< cells along each axis; 0: no buffer
     bool parallel;
 
     [[nodiscard]] Vec3 seen(const Vec3& point) const
@@ -61,15 +77,15 @@ struct LightAxes {
     }
 };
 
-/// A sphere as the light sees it.
+/// A sphere in the space of the light's axes.
 struct SeenSphere {
     Vec3 center;
-    double distance = 0.0;  ///< of the centre; ahead of the origin, for parallel light
-    double radius = -1.0;   ///< negative: none
-    double larger = 0.0;    ///< a radius that holds what rounding does, too
-    double size = 0.0;      ///< that it looks
-    std::int16_t low[2] = {0, 0};
-    std::int16_t high[2] = {-1, -1};  ///< its cells, the last ones included
+    double distance = 0.0;            ///< of the centre from the light, or along parallel light
+    double radius = -1.0;             ///< negative for an unused slot
+    double larger = 0.0;              ///< the radius with room for rounding
+    double size = 0.0;                ///< apparent size
+    std::int16_t low[2] = {0, 0};     ///< the first of its cells along each axis
+    std::int16_t high[2] = {-1, -1};  ///< the last one
 
     [[nodiscard]] double near() const
     {
@@ -77,26 +93,28 @@ struct SeenSphere {
     }
 };
 
-/// What a circle of the plane of one axis and the way ahead covers, before scaling.
 struct Covered {
     double low;
     double high;
 };
-Covered covered(const Vec3& center, double radius, int axis, bool parallel)
+
+/// The range of tangents that a sphere covers along one axis; of parallel light, its coordinates.
+Covered covered(const SeenSphere& sphere, int axis, const LightAxes& axes)
 {
-    const double x = center[axis];
-    if (parallel)
+    const double radius = sphere.larger;
+    const double x = sphere.center[axis];
+    if (axes.parallel)
         return {x - radius, x + radius};
-    const double z = center.z;
+    const double z = sphere.center.z;
     const double root = radius * std::sqrt(std::max(0.0, x * x + z * z - radius * radius));
     const double below = z * z - radius * radius;
     return {(x * z - root) / below, (x * z + root) / below};
 }
 
-/// The range of cells along one axis.
+/// Sets the range of cells along one axis.
 void set_range(SeenSphere& sphere, int axis, const LightAxes& axes)
 {
-    const Covered at = covered(sphere.center, sphere.larger, axis, axes.parallel);
+    const Covered at = covered(sphere, axis, axes);
     const double half = 0.5 * axes.size;
     const double low = at.low * axes.scale + half - cell_margin;
     const double high = at.high * axes.scale + half + cell_margin;
@@ -117,8 +135,8 @@ SeenSphere see(const LightAxes& axes, const abi::BvhView<float>& tree, int place
     const double distance = glm::length(sphere.center);
     sphere.distance = axes.parallel ? sphere.center.z : distance;
     sphere.radius = double{block.radius[slot]};
-    sphere.larger =
-        sphere.radius * (1.0 + size_margin) + 2.0 * double{tree.center_error} + 1e-6 * distance;
+    sphere.larger = sphere.radius * (1.0 + size_margin) + 2.0 * double{tree.center_error} +
+                    center_margin * distance;
     sphere.size = axes.parallel ? sphere.radius : sphere.radius / distance;
     set_range(sphere, 0, axes);
     set_range(sphere, 1, axes);
@@ -134,7 +152,7 @@ void for_each_cell(const SeenSphere& sphere, int size, const Visit& visit)
             visit(row * size + column);
 }
 
-/// Whether the spheres cover no more cells than their view may have room for.
+/// Whether the spheres cover few enough cells.
 bool is_sparse(const std::vector<SeenSphere>& spheres, int size)
 {
     const auto cells = static_cast<std::size_t>(size * size);
@@ -145,7 +163,7 @@ bool is_sparse(const std::vector<SeenSphere>& spheres, int size)
     return covered <= most_cells * (spheres.size() + cells);
 }
 
-/// Whether all rays of a cell go through a sphere: those through its corners do.
+/// Whether a sphere fills a cell: all rays of the cell hit it if those through its corners do.
 bool fills(const SeenSphere& sphere, const LightAxes& axes, int cell)
 {
     const double smaller =
@@ -167,13 +185,13 @@ bool fills(const SeenSphere& sphere, const LightAxes& axes, int cell)
     return true;
 }
 
-/// By cell, where the nearest sphere that fills it ends: nothing is lit behind that.
+/// By cell, the depth where the nearest sphere that fills it ends. Behind it all is dark.
 std::vector<float> dark_depths(const std::vector<SeenSphere>& spheres, const LightAxes& axes)
 {
     std::vector<float> dark(static_cast<std::size_t>(axes.size * axes.size),
                             std::numeric_limits<float>::infinity());
     for (const SeenSphere& sphere : spheres) {
-        // None of a smaller sphere's cells is filled.
+        // A sphere that covers fewer than three cells along an axis fills none.
         if (sphere.high[0] - sphere.low[0] < 2 || sphere.high[1] - sphere.low[1] < 2)
             continue;
         const auto back = static_cast<float>((sphere.distance + sphere.larger) * 1.000001);
@@ -186,11 +204,11 @@ std::vector<float> dark_depths(const std::vector<SeenSphere>& spheres, const Lig
     return dark;
 }
 
-/// The spheres of each cell, one cell's after the other's.
+/// The spheres of each cell, in one array.
 struct CellSpheres {
     std::vector<float> dark;  ///< by cell, dark_depths()
-    std::vector<int> first;   ///< by cell, and the end of the last
-    std::vector<int> place;
+    std::vector<int> first;   ///< by cell, the index of its first sphere in `place`; and the end
+    std::vector<int> place;   ///< of the spheres in the blocks of the BVH
 };
 
 CellSpheres sort_into_cells(const std::vector<SeenSphere>& spheres, const LightAxes& axes)
@@ -219,21 +237,21 @@ CellSpheres sort_into_cells(const std::vector<SeenSphere>& spheres, const LightA
     return cells;
 }
 
-/// The direction that a light sees the spheres' middle in, and the radius of what it sees around
-/// that by the measure of its grid; no number for one that does not see all of them ahead of it.
+/// Turns the axes to the middle of the spheres' ball. Returns the tangent of the ball seen from the
+/// light, infinite where a point light is inside it; of parallel light, the ball's radius.
 double look_at_spheres(LightAxes& axes, const abi::LightRecord<float>& light,
                        const abi::BvhView<float>& tree)
 {
     const Vec3 vector(double{light.vector[0]}, double{light.vector[1]}, double{light.vector[2]});
     const Vec3 middle(double{tree.middle[0]}, double{tree.middle[1]}, double{tree.middle[2]});
-    const double radius = double{tree.radius} * 1.001;
+    const double radius = double{tree.radius} * ball_room;
     if (axes.parallel) {
         axes.forward = -glm::normalize(vector);
-        const Vec3 origin = middle - 1.5 * radius * axes.forward;
-        // As the kernels have it.
+        const Vec3 origin = middle - origin_distance * radius * axes.forward;
+        // Rounded as the kernels have it.
         for (int axis = 0; axis < 3; ++axis)
             axes.origin[axis] = double{static_cast<float>(origin[axis])};
-        return radius * 1.001;
+        return radius * ball_room;
     }
     axes.origin = vector;
     const Vec3 way = middle - vector;
@@ -247,17 +265,17 @@ LightAxes axes_of(const abi::LightRecord<float>& light, const abi::BvhView<float
     LightAxes axes{};
     axes.parallel = light.kind == abi::LightKind::directional;
     const double radius = look_at_spheres(axes, light, tree);
-    if (!(radius < (axes.parallel ? std::numeric_limits<double>::infinity() : widest)))
+    if (!(radius < (axes.parallel ? std::numeric_limits<double>::infinity() : largest_tangent)))
         return axes;
     const Vec3 side = std::abs(axes.forward.x) < 0.5 ? Vec3(1, 0, 0) : Vec3(0, 1, 0);
     axes.across = glm::normalize(glm::cross(axes.forward, side));
     axes.up = glm::cross(axes.forward, axes.across);
     axes.size = size;
-    axes.scale = 0.5 * size / (1.001 * radius);
+    axes.scale = 0.5 * size / (ball_room * radius);
     return axes;
 }
 
-/// What looks largest from the light blocks most of its rays.
+/// Largest first: a sphere that looks larger from the light occludes more of its rays.
 void sort_by_size(std::span<int> places, const std::vector<SeenSphere>& spheres)
 {
     std::sort(places.begin(), places.end(), [&](int a, int b) {
@@ -267,7 +285,7 @@ void sort_by_size(std::span<int> places, const std::vector<SeenSphere>& spheres)
     });
 }
 
-/// A depth as LightCell has it, of spheres that begin there.
+/// LightCell::near of a cell whose spheres begin at `depth`.
 float depth_in_front(double depth, const LightAxes& axes)
 {
     if (axes.parallel)
@@ -276,7 +294,7 @@ float depth_in_front(double depth, const LightAxes& axes)
     return static_cast<float>(nearer * nearer);
 }
 
-/// The same of a sphere that ends there.
+/// LightCell::dark of a cell that is filled by a sphere which ends at `depth`.
 float depth_behind(double depth, const LightAxes& axes)
 {
     if (axes.parallel)
@@ -285,13 +303,13 @@ float depth_behind(double depth, const LightAxes& axes)
     return static_cast<float>(further * further);
 }
 
-/// Where the first of some spheres begins.
-double nearest(std::span<const int> places, const std::vector<SeenSphere>& spheres)
+/// The depth where the first of some spheres begins.
+double least_depth(std::span<const int> places, const std::vector<SeenSphere>& spheres)
 {
-    double distance = 1e18;
+    double depth = no_sphere_depth;
     for (const int place : places)
-        distance = std::min(distance, spheres[static_cast<std::size_t>(place)].near());
-    return distance;
+        depth = std::min(depth, spheres[static_cast<std::size_t>(place)].near());
+    return depth;
 }
 
 void fill_blocks(std::span<abi::LightBlock> blocks, std::span<const int> places,
@@ -303,10 +321,11 @@ void fill_blocks(std::span<abi::LightBlock> blocks, std::span<const int> places,
         const bool used = i < places.size();
         const int place = used ? places[i] : 0;
         const abi::SphereBlock<float>& from = tree.blocks[place / abi::node_width];
-        const int there = place % abi::node_width;
+        const int from_slot = place % abi::node_width;
         for (int axis = 0; axis < 3; ++axis)
-            block.center[axis][slot] = used ? from.center[axis][there] : abi::largest_coordinate;
-        block.radius[slot] = used ? from.radius[there] : -1.0f;
+            block.center[axis][slot] =
+                used ? from.center[axis][from_slot] : abi::largest_coordinate;
+        block.radius[slot] = used ? from.radius[from_slot] : -1.0f;
         block.surface[slot] = used ? tree.block_surfaces[place] : -1;
     }
 }
@@ -317,7 +336,7 @@ void round_axis(float (&rounded)[3], const Vec3& axis)
         rounded[i] = static_cast<float>(axis[i]);
 }
 
-/// Cells that have room in the blocks, one after the other, for their spheres.
+/// Cells with as many blocks each as their spheres need, one cell's after the other's.
 AlignedArray<abi::LightCell> cells_of(const CellSpheres& sorted)
 {
     AlignedArray<abi::LightCell> cells(sorted.first.size() - 1);
@@ -350,6 +369,7 @@ abi::LightBuffer grid_of(const LightAxes& axes)
 PackedLightBuffer::PackedLightBuffer(const abi::LightRecord<float>& light,
                                      const abi::BvhView<float>& tree, int blocks)
 {
+    // Project all spheres onto the grid.
     const LightAxes axes = axes_of(light, tree, grid_size(blocks));
     if (axes.size == 0)
         return;
@@ -359,6 +379,8 @@ PackedLightBuffer::PackedLightBuffer(const abi::LightRecord<float>& light,
     });
     if (!is_sparse(spheres, axes.size))
         return;
+
+    // Sort them into the cells, and fill the blocks of each cell.
     CellSpheres sorted = sort_into_cells(spheres, axes);
     cells_ = cells_of(sorted);
     const abi::LightCell& last = cells_[cells_.size() - 1];
@@ -368,7 +390,7 @@ PackedLightBuffer::PackedLightBuffer(const abi::LightRecord<float>& light,
         const std::span<int> places(sorted.place.data() + sorted.first[cell],
                                     sorted.place.data() + sorted.first[cell + 1]);
         sort_by_size(places, spheres);
-        cells_[cell].near = depth_in_front(nearest(places, spheres), axes);
+        cells_[cell].near = depth_in_front(least_depth(places, spheres), axes);
         cells_[cell].dark = depth_behind(double{sorted.dark[cell]}, axes);
         fill_blocks(
             {blocks_.data() + cells_[cell].first, static_cast<std::size_t>(cells_[cell].count)},

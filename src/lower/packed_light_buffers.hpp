@@ -8,12 +8,13 @@
 
 namespace packtrace {
 
-/// One light's view of the spheres of a hierarchy, in the arrays the kernels read.
+/// The buffer of one light: a grid across the light's view of a BVH of spheres, with the spheres of
+/// each cell, as arrays that the kernels read.
 class PackedLightBuffer {
 public:
     PackedLightBuffer() = default;
-    /// Empty where a point light is too near to the spheres to see all of them ahead of it, and
-    /// where most spheres are in each other, so that it would take far more room than they.
+    /// Empty where a point light is too near to see all spheres ahead of it, and where so many
+    /// spheres overlap that the buffer would take far more memory than the spheres.
     PackedLightBuffer(const abi::LightRecord<float>& light, const abi::BvhView<float>& tree,
                       int blocks);
 

@@ -5,14 +5,13 @@
 namespace packtrace {
 namespace {
 
-/// The objects that no hierarchy holds.
 template <class Object>
 std::vector<const Object*> listed(const LoweredScene& lowered, const std::vector<Object>& objects,
-                                  bool is_tree)
+                                  Listed which)
 {
     std::vector<const Object*> list;
     for (const Object& object : objects)
-        if (!is_tree || !is_in_tree(lowered, object))
+        if (which == Listed::all || !is_in_bvh(lowered, object))
             list.push_back(&object);
     return list;
 }
@@ -35,18 +34,20 @@ abi::RecordList<Record> list_of(const AlignedArray<Record>& records)
 }  // namespace
 
 template <class Real>
-PackedLists<Real>::PackedLists(const LoweredScene& lowered, bool is_tree)
+PackedLists<Real>::PackedLists(const LoweredScene& lowered, Listed which)
 {
-    const auto unheld = [&](const auto& objects) { return listed(lowered, objects, is_tree); };
-    pack_spheres(unheld(lowered.spheres));
-    pack_all(unheld(lowered.anchored_spheres), anchored_spheres_, pack<Real>);
-    pack_all(unheld(lowered.planes), planes_, pack<Real>);
-    pack_all(unheld(lowered.quadrics), quadrics_, pack<Real>);
-    const auto polygons = unheld(lowered.polygons);
+    const auto list = [&](const auto& objects) { return listed(lowered, objects, which); };
+    pack_spheres(list(lowered.spheres));
+    pack_all(list(lowered.anchored_spheres), anchored_spheres_, pack<Real>);
+    pack_all(list(lowered.planes), planes_, pack<Real>);
+    pack_all(list(lowered.quadrics), quadrics_, pack<Real>);
+    const auto polygons = list(lowered.polygons);
     pack_all(polygons, polygons_, pack<Real>);
     polygon_corners_ = PackedCorners<Real>(polygons, {polygons_.data(), polygons_.size()});
 }
 
+/// Six arrays one after the other: x, y and z of the centre, radius, its square, error of the
+/// centre.
 template <class Real>
 void PackedLists<Real>::pack_spheres(const std::vector<const LoweredSphere*>& spheres)
 {
@@ -56,14 +57,14 @@ void PackedLists<Real>::pack_spheres(const std::vector<const LoweredSphere*>& sp
     sphere_surfaces_ = AlignedArray<abi::lane_int<Real>>(sphere_stride_);
     for (std::size_t i = 0; i < spheres.size(); ++i) {
         const LoweredSphere& sphere = *spheres[i];
-        Real* const place = sphere_reals_.data() + i;
+        Real* const reals = sphere_reals_.data() + i;
         for (int axis = 0; axis < 3; ++axis)
-            place[static_cast<std::size_t>(axis) * sphere_stride_] =
+            reals[static_cast<std::size_t>(axis) * sphere_stride_] =
                 static_cast<Real>(sphere.center[axis]);
-        place[3 * sphere_stride_] = static_cast<Real>(sphere.radius);
-        // Of the rounded radius, as a hierarchy has it.
-        place[4 * sphere_stride_] = place[3 * sphere_stride_] * place[3 * sphere_stride_];
-        place[5 * sphere_stride_] = static_cast<Real>(center_error<Real>(sphere));
+        reals[3 * sphere_stride_] = static_cast<Real>(sphere.radius);
+        // The square of the rounded radius, as for spheres of a BVH.
+        reals[4 * sphere_stride_] = reals[3 * sphere_stride_] * reals[3 * sphere_stride_];
+        reals[5 * sphere_stride_] = static_cast<Real>(center_error<Real>(sphere));
         sphere_surfaces_[i] = sphere.surface;
     }
 }

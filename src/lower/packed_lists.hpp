@@ -6,15 +6,16 @@
 
 namespace packtrace {
 
-/// The objects that no hierarchy holds, list by list, in the arrays and the precision the kernels
-/// read.
+/// Which objects of a scene are in its lists.
+enum class Listed { all, outside_bvh };
+
+/// Lists of objects by kind, as arrays in the precision that the kernels read.
 template <class Real>
 class PackedLists {
 public:
-    /// Of the objects those that are in the hierarchy stay out when there `is_tree`.
-    PackedLists(const LoweredScene& lowered, bool is_tree);
+    PackedLists(const LoweredScene& lowered, Listed which);
 
-    /// Points `view` to the lists, valid as long as this object.
+    /// Points `view` to the lists; valid as long as this object.
     void show(abi::GeometryView<Real>& view) const;
 
     [[nodiscard]] std::size_t bytes() const
@@ -28,7 +29,7 @@ private:
 
     int sphere_count_ = 0;
     std::size_t sphere_stride_ = 0;
-    AlignedArray<Real> sphere_reals_;
+    AlignedArray<Real> sphere_reals_;  // see pack_spheres()
     AlignedArray<abi::lane_int<Real>> sphere_surfaces_;
     AlignedArray<abi::AnchoredSphere<Real>> anchored_spheres_;
     AlignedArray<abi::PlaneRecord<Real>> planes_;

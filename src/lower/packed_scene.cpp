@@ -12,39 +12,51 @@
 namespace packtrace {
 namespace {
 
-/// From these numbers of objects on a hierarchy is quicker than lists (results/crossover.json).
-/// Streams: camera and shadow rays from 12, bounced ones from 100.
-constexpr std::size_t stream_tree_objects = 32;
-/// Quadrics and polygons with error bounds: camera rays from 40, rays of all directions from 600.
-/// So many count as one sphere.
+// From how many objects on a BVH is faster than lists (results/crossover.json).
+
+/// Streams: a BVH is faster for camera and shadow rays from 12 spheres on, for bounced rays from
+/// 100.
+constexpr std::size_t stream_bvh_objects = 32;
+
+/// Quadrics and polygons with error bounds: a BVH is faster for camera rays from 40 on, for rays of
+/// all directions from 600. So this many count as one sphere.
 constexpr std::size_t bounded_objects_a_sphere = 4;
-/// Frames: their tiles pick from lists what their cones meet, and test it a packet at a time, so
-/// that lists stay ahead for longer the wider the packets are.
-constexpr std::size_t frame_tree_objects(int lanes)
+
+/// Frames: a tile selects objects from lists by its cone and tests them a packet at a time. So the
+/// wider the packets, the longer lists are faster.
+constexpr std::size_t frame_bvh_objects(int lanes)
 {
     return lanes >= 16 ? 160 : lanes >= 8 ? 128 : 96;
 }
-/// Without mirrors or glass frames have no rays but those that start or end together. So many
-/// objects, whatever the lanes: a hierarchy gains on more than 40 spheres where these hide each
-/// other, on more than 160 where they are far apart (results/crossover_fast.json).
-constexpr std::size_t plain_frame_tree_objects = 112;
-/// In exact ones only short lists are left, whose bounds are found once a tile; a hierarchy's are
-/// found for each bundle of rays and leaf. So many spheres or quadrics, whatever the lanes
-/// (results/tree_designs.json).
-constexpr std::size_t exact_plain_frame_tree_objects = 384;
-/// Meshes are met as quickly through a hierarchy from some 80 polygons on.
+
+/// Frames without mirrors and glass have only rays that start or end together. For all packet
+/// widths a BVH is faster from 40 spheres on if these hide each other, from 160 if they are far
+/// apart (results/crossover_fast.json).
+constexpr std::size_t plain_frame_bvh_objects = 112;
+
+/// The same in exact mode, for spheres or quadrics. Error bounds of lists are computed once for a
+/// tile, those of a BVH for each bundle of rays and leaf (lists_of_frames_without_mirrors in
+/// results/tree_designs.json).
+constexpr std::size_t exact_plain_frame_bvh_objects = 384;
+
+/// A mesh is as fast through a BVH from about 80 polygons on (same figures), so a polygon counts as
+/// this many spheres.
 constexpr std::size_t plain_objects_a_polygon = 4;
 
-/// So many shadow rays that run apart, to a block of spheres, pay for a light's buffer: a quarter
-/// of them where spheres are crowded, all of them where they are spread evenly
-/// (results/tree_designs.json).
+/// A light buffer pays for being built from this many spread shadow rays for each block of spheres
+/// on if the spheres are spread evenly, from a quarter as many on if they crowd
+/// (light_buffers_of_large_scenes in results/tree_designs.json).
 constexpr double light_buffer_rays = 75.0;
 
-/// How many roundoffs rays start off a surface by. Hits in single precision are refined in double
-/// and rounded once, their offset start once more; those in double are as the search found them.
-/// docs/numerics_derivations.md derives them.
+/// The ray origin offset in unit roundoffs. Hits in single precision are refined in double and
+/// rounded once, and their offset origin once more. Hits in double are not refined.
+/// docs/numerics_derivations.md derives both.
 template <class Real>
 constexpr Real start_roundoffs = sizeof(Real) == sizeof(float) ? Real(4) : Real(32);
+
+/// The least cosine of a highlight is made smaller by this share, so that the kernels' own power,
+/// which is rounded, is 0 below it.
+constexpr double highlight_floor_margin = 1e-6;
 
 bool certifiable(const LoweredScene& lowered)
 {
@@ -53,42 +65,49 @@ bool certifiable(const LoweredScene& lowered)
     return all;
 }
 
-Traversal chosen(Traversal traversal, std::size_t objects, std::size_t tree_objects)
+/// `least` is the number of objects from which on a BVH is faster.
+Traversal chosen(Traversal traversal, std::size_t objects, std::size_t least)
 {
     if (traversal != Traversal::automatic)
         return traversal;
-    return objects >= tree_objects ? Traversal::tree : Traversal::list;
+    return objects >= least ? Traversal::tree : Traversal::list;
 }
 
-/// The objects that a hierarchy could hold, in spheres by what it brings for them.
+/// The number of objects that a BVH can hold, each counted by how much a BVH gains for it.
 template <class Real>
-std::size_t weigh_tree_objects(const LoweredScene& lowered)
+std::size_t weighted_bvh_objects(const LoweredScene& lowered)
 {
-    const TreeObjects objects = count_tree_objects(lowered);
+    const BvhObjects objects = count_tree_objects(lowered);
     const bool with_bounds = sizeof(Real) == sizeof(float) && lowered.features.exact;
     return objects.spheres +
            (objects.quadrics + objects.polygons) / (with_bounds ? bounded_objects_a_sphere : 1);
 }
 
 template <class Real>
-PackedTree<Real> pack_tree(const LoweredScene& lowered, Traversal traversal, Bvh* keep)
+PackedTree<Real> pack_bvh(const LoweredScene& lowered, Traversal traversal, Bvh* keep)
 {
-    const Traversal by = chosen(traversal, weigh_tree_objects<Real>(lowered), stream_tree_objects);
+    const Traversal by = chosen(traversal, weighted_bvh_objects<Real>(lowered), stream_bvh_objects);
     return by == Traversal::tree ? PackedTree<Real>(lowered, keep) : PackedTree<Real>();
 }
 
-/// Below this cosine the highlight is less than the smallest normal number and counts as 0; a
-/// little lower, so that the kernel's own power is 0 there too.
+/// The objects that lists hold beside a BVH, which may be empty.
+template <class Real>
+Listed listed_beside(const PackedTree<Real>& bvh)
+{
+    return bvh.view().empty() ? Listed::all : Listed::outside_bvh;
+}
+
+/// Below this cosine the highlight is less than the smallest normal number and counts as 0.
 template <class Real>
 Real highlight_floor(const LoweredMaterial& material)
 {
     if (material.highlight == Rgb(0.0))
         return std::numeric_limits<Real>::infinity();
     const double smallest = std::numeric_limits<Real>::min_exponent - 1;
-    return static_cast<Real>(std::exp2(smallest / material.shininess) * (1.0 - 1e-6));
+    return static_cast<Real>(std::exp2(smallest / material.shininess) *
+                             (1.0 - highlight_floor_margin));
 }
 
-/// Every value is rounded once, from double.
 template <class Real>
 abi::MaterialRecord<Real> pack_material(const LoweredMaterial& material)
 {
@@ -104,7 +123,7 @@ abi::MaterialRecord<Real> pack_material(const LoweredMaterial& material)
     return packed;
 }
 
-/// Whether each surface has the number of its object, so that none need be looked up.
+/// Whether each surface has the number of its object, so that kernels need not look it up.
 bool are_objects(const std::vector<abi::MaterialIndex>& surfaces)
 {
     std::int32_t number = 0;
@@ -116,14 +135,14 @@ bool are_objects(const std::vector<abi::MaterialIndex>& surfaces)
 
 Traversal frame_traversal(const LoweredScene& lowered, Traversal traversal, int lanes)
 {
-    const TreeObjects objects = count_tree_objects(lowered);
+    const BvhObjects objects = count_tree_objects(lowered);
     if (lowered.bounces && lowered.max_depth > 0)
-        return chosen(traversal, objects.all(), frame_tree_objects(lanes));
+        return chosen(traversal, objects.all(), frame_bvh_objects(lanes));
     if (!lowered.features.exact)
-        return chosen(traversal, objects.all(), plain_frame_tree_objects);
+        return chosen(traversal, objects.all(), plain_frame_bvh_objects);
     return chosen(traversal,
                   objects.spheres + objects.quadrics + objects.polygons * plain_objects_a_polygon,
-                  exact_plain_frame_tree_objects);
+                  exact_plain_frame_bvh_objects);
 }
 
 LoweredScene shadow_casters(const LoweredScene& lowered)
@@ -140,12 +159,12 @@ LoweredScene shadow_casters(const LoweredScene& lowered)
 
 template <class Real>
 PackedScene<Real>::PackedScene(const LoweredScene& lowered, Traversal traversal, Bvh* keep)
-    : tree_(pack_tree<Real>(lowered, traversal, keep)),
-      lists_(lowered, !tree_.view().empty()),
+    : bvh_(pack_bvh<Real>(lowered, traversal, keep)),
+      lists_(lowered, listed_beside(bvh_)),
       shapes_(lowered)
 {
-    tree_.set_shapes(shapes_.view());
-    view_.tree = tree_.view();
+    bvh_.set_shapes(shapes_.view());
+    view_.tree = bvh_.view();
     lists_.show(view_);
     view_.shapes = shapes_.view();
     if (sizeof(Real) == sizeof(float) && lowered.features.exact)
@@ -154,10 +173,16 @@ PackedScene<Real>::PackedScene(const LoweredScene& lowered, Traversal traversal,
     pack_ior(lowered);
     pack_lights(lowered);
     pack_casters(lowered);
+    pack_rules(lowered);
+    pack_min_weight(lowered);
+}
+
+template <class Real>
+void PackedScene<Real>::pack_rules(const LoweredScene& lowered)
+{
     round_to(view_.rules.background, lowered.background);
     round_to(view_.rules.limit_color, lowered.limit_color);
     view_.rules.max_depth = lowered.max_depth;
-    pack_min_weight(lowered);
     view_.lighting.flat = lowered.flat;
     view_.lighting.transparent_shadows = lowered.transparent_shadows;
     if (lowered.visible_lights)
@@ -174,13 +199,13 @@ PackedScene<Real>::PackedScene(const LoweredScene& lowered, Traversal traversal,
 template <class Real>
 void PackedScene<Real>::refit(const LoweredScene& lowered, const Bvh& bvh)
 {
-    tree_.refit(lowered, bvh);
+    bvh_.refit(lowered, bvh);
     shapes_.move(lowered);
-    view_.tree = tree_.view();
+    view_.tree = bvh_.view();
     view_.shapes = shapes_.view();
     if (view_.wide == nullptr)
         return;
-    wide_.tree = tree_.wide_view(shapes_.view());
+    wide_.tree = bvh_.wide_view(shapes_.view());
     view_.certifiable = certifiable(lowered);
     choose_light_ends(lowered);
 }
@@ -188,10 +213,10 @@ void PackedScene<Real>::refit(const LoweredScene& lowered, const Bvh& bvh)
 template <class Real>
 void PackedScene<Real>::pack_wide(const LoweredScene& lowered)
 {
-    wide_lists_ = std::make_unique<PackedLists<double>>(lowered, !tree_.view().empty());
+    wide_lists_ = std::make_unique<PackedLists<double>>(lowered, listed_beside(bvh_));
     wide_lists_->show(wide_);
-    if (!tree_.view().empty())
-        wide_.tree = tree_.wide_view(shapes_.view());
+    if (!bvh_.view().empty())
+        wide_.tree = bvh_.wide_view(shapes_.view());
     view_.wide = &wide_;
     view_.certifiable = certifiable(lowered);
 }
@@ -232,7 +257,7 @@ void PackedScene<Real>::pack_min_weight(const LoweredScene& lowered)
     view_.rules.most_light = most_light_.data();
 }
 
-/// By object where rays enter any; else there is the world alone.
+/// By object in scenes with glass; else that of the world alone. The world has number -1.
 template <class Real>
 void PackedScene<Real>::pack_ior(const LoweredScene& lowered)
 {
@@ -281,10 +306,10 @@ void PackedScene<Real>::pack_casters(const LoweredScene& lowered)
 {
     if (!lowered.shadows || lowered.casts_shadow.empty())
         return;
-    // Without a hierarchy for the camera's rays there are no groups of shadow rays either.
+    // Without a BVH for camera rays there are no bundles of shadow rays either.
     casters_ = std::make_unique<PackedScene>(
-        shadow_casters(lowered), tree_.view().empty() ? Traversal::list : Traversal::automatic);
-    // Their own lights could be far from them, but not from all objects.
+        shadow_casters(lowered), bvh_.view().empty() ? Traversal::list : Traversal::automatic);
+    // A light may be far from the casters, but not from all objects.
     for (std::size_t i = 0; i < lights_.size(); ++i)
         casters_->lights_[i].sends_rays = lights_[i].sends_rays;
     view_.casters = &casters_->view();
@@ -293,10 +318,10 @@ void PackedScene<Real>::pack_casters(const LoweredScene& lowered)
 template <class Real>
 double PackedScene<Real>::rays_for_light_buffer() const
 {
-    const bool looked_for = sizeof(Real) == sizeof(float) && view_.wide != nullptr &&
-                            !view_.tree.empty() && tree_.holds_spheres_alone();
-    return looked_for ? light_buffer_rays * static_cast<double>(tree_.block_count())
-                      : std::numeric_limits<double>::infinity();
+    const bool possible = sizeof(Real) == sizeof(float) && view_.wide != nullptr &&
+                          !view_.tree.empty() && bvh_.holds_spheres_alone();
+    return possible ? light_buffer_rays * static_cast<double>(bvh_.block_count())
+                    : std::numeric_limits<double>::infinity();
 }
 
 template <class Real>
@@ -304,7 +329,7 @@ PackedLightBuffer PackedScene<Real>::light_buffer(const abi::LightRecord<Real>& 
 {
     if constexpr (sizeof(Real) == sizeof(float))
         if (light.kind == abi::LightKind::directional || light.sends_rays)
-            return {light, view_.tree, tree_.block_count()};
+            return {light, view_.tree, bvh_.block_count()};
     return {};
 }
 

@@ -14,28 +14,27 @@
 
 namespace packtrace {
 
-/// What Traversal::automatic comes to for pictures, by kernels of so many lanes. PackedScene's own
-/// choice is for streams of rays.
+/// What Traversal::automatic chooses for pictures, with kernels of so many lanes. PackedScene
+/// itself chooses for streams of rays.
 [[nodiscard]] Traversal frame_traversal(const LoweredScene& lowered, Traversal traversal,
                                         int lanes);
 
-/// What casts shadows, where not all does.
+/// The scene without the surfaces that cast no shadow; lowered.casts_shadow is not empty.
 [[nodiscard]] LoweredScene shadow_casters(const LoweredScene& lowered);
 
-/// A lowered scene in the arrays and the precision the kernels read. Values are rounded once,
-/// from double, here.
+/// A lowered scene as arrays in the precision that the kernels read. Values are rounded here, once,
+/// from double.
 template <class Real>
 class PackedScene {
 public:
-    /// Where `keep` is given and the scene gets a hierarchy, `keep` becomes the tree that refit()
-    /// needs.
+    /// `keep`, if given, receives the scene's BVH, if it has one, for refit().
     explicit PackedScene(const LoweredScene& lowered, Traversal traversal = Traversal::automatic,
                          Bvh* keep = nullptr);
     PackedScene(const PackedScene&) = delete;
     PackedScene& operator=(const PackedScene&) = delete;
 
-    /// Takes over where objects are now that `bvh` holds, after refit_tree(). Each is still of its
-    /// kind; objects that lists hold have not moved. For scenes whose objects all cast shadows.
+    /// Updates the objects in `bvh`, which have moved, after refit_tree(). Each is still of its
+    /// kind, and objects in lists have not moved. For scenes whose objects all cast shadows.
     void refit(const LoweredScene& lowered, const Bvh& bvh);
 
     /// Valid as long as this object.
@@ -44,23 +43,23 @@ public:
         return view_;
     }
 
-    /// What casts shadows: this, or a scene of its own.
+    /// The scene of the occluders: this one, or one without the objects that cast no shadow.
     [[nodiscard]] const PackedScene& casters() const
     {
         return casters_ ? *casters_ : *this;
     }
 
-    /// From how many rays towards a light on that share no way its view of the hierarchy pays for
-    /// itself; no number is large enough where there is none.
+    /// From how many spread shadow rays on the buffer of a light pays for being built; infinite
+    /// where lights can't have one.
     [[nodiscard]] double rays_for_light_buffer() const;
 
-    /// The view of one light, where rays_for_light_buffer() is a number.
+    /// The buffer of one light, where rays_for_light_buffer() is finite.
     [[nodiscard]] PackedLightBuffer light_buffer(const abi::LightRecord<Real>& light) const;
 
-    /// What is held all in all.
+    /// All memory that is held.
     [[nodiscard]] std::size_t bytes() const
     {
-        return sizeof *this + tree_.bytes() + lists_.bytes() + shapes_.bytes() +
+        return sizeof *this + bvh_.bytes() + lists_.bytes() + shapes_.bytes() +
                (wide_lists_ ? wide_lists_->bytes() : 0) + material_index_.bytes() +
                materials_.bytes() + checkers_.bytes() + ior_.bytes() + lights_.bytes() +
                most_light_.bytes() + (casters_ ? casters_->bytes() : 0);
@@ -68,6 +67,7 @@ public:
 
 private:
     void pack_wide(const LoweredScene& lowered);
+    void pack_rules(const LoweredScene& lowered);
     void pack_materials(const LoweredScene& lowered);
     void pack_ior(const LoweredScene& lowered);
     void pack_min_weight(const LoweredScene& lowered);
@@ -75,7 +75,7 @@ private:
     void choose_light_ends(const LoweredScene& lowered);
     void pack_casters(const LoweredScene& lowered);
 
-    PackedTree<Real> tree_;
+    PackedTree<Real> bvh_;
     PackedLists<Real> lists_;
     PackedShapes shapes_;
     std::unique_ptr<PackedLists<double>> wide_lists_;  // where rays may be traced again in double
@@ -85,8 +85,8 @@ private:
     AlignedArray<abi::CheckerRecord<Real>> checkers_;
     AlignedArray<Real> ior_;
     AlignedArray<abi::LightRecord<Real>> lights_;
-    AlignedArray<abi::MostLight> most_light_;  // where some rays are not traced
-    std::unique_ptr<PackedScene> casters_;     // where some objects cast no shadow, the others
+    AlignedArray<abi::MostLight> most_light_;  // with Scene::min_weight
+    std::unique_ptr<PackedScene> casters_;     // the occluders, where some objects cast no shadow
     abi::SceneView<Real> view_;
 };
 

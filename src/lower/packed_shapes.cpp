@@ -9,7 +9,7 @@
 namespace packtrace {
 namespace {
 
-/// Leaves of a hierarchy have so many bits for an object's number; surfaces have one more.
+/// Leaves of a BVH have run_count_shift bits for an object's number; abi::SurfaceIndex has 28.
 constexpr std::size_t most_objects = std::size_t{1} << abi::run_count_shift;
 constexpr std::uint32_t largest_record = (1u << 28) - 1;
 static_assert(most_objects - 1 <= largest_record);
@@ -22,7 +22,7 @@ void check_count(std::size_t objects)
                                 std::to_string(most_objects) + " at most");
 }
 
-/// Packs the objects of one kind, and notes where they are.
+/// Packs the objects of one kind, and records their indices.
 template <class Object, class Shape>
 AlignedArray<Shape> pack_kind(const std::vector<Object>& objects,
                               const std::vector<std::uint8_t>& faces_viewer,

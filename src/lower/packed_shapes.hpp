@@ -6,20 +6,20 @@
 
 namespace packtrace {
 
-/// An array a kind.
+/// The type of one array for each kind.
 template <class... List>
 std::tuple<AlignedArray<ShapeOf<KindOf<List>>>...> shape_arrays_of(const std::tuple<List...>&);
 
-/// The shapes that hits are refined and shaded by, in double whatever the precision of the rays, as
-/// the kernels find them by surface number. A sphere costs 36 bytes.
+/// The shapes of all surfaces, by surface number, with which kernels refine and shade hits. They
+/// are in double for rays of both precisions. A sphere takes 36 bytes.
 class PackedShapes {
 public:
     explicit PackedShapes(const LoweredScene& lowered);
 
-    /// Takes over where surfaces are now; each is still of its kind.
+    /// Updates the shapes of surfaces that have moved; each is still of its kind.
     void move(const LoweredScene& lowered);
 
-    /// Valid as long as this object, also where that moves to.
+    /// Valid as long as this object, also after the object itself is moved.
     [[nodiscard]] const abi::ShapesView& view() const
     {
         return view_;

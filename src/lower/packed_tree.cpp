@@ -21,9 +21,26 @@ namespace {
 enum ItemKind : std::uint32_t { sphere_item, quadric_item, polygon_item };
 constexpr std::size_t item_kinds = 3;
 
-/// How far single precision shifts the hits of a sphere, as a share of the distances there are:
+/// How far single precision may shift a hit of a sphere, as a share of all distances:
 /// docs/numerics_derivations.md derives 16 units in the last place.
 constexpr double sphere_slack = 2e-6;
+
+/// Boxes get room for rounding a centre and a radius to single precision: shares of both, each of
+/// at least five unit roundoffs.
+constexpr double half_slack = 1e-6;
+constexpr double center_slack = 3e-7;
+
+/// The ball around the BVH is larger by this factor than computed, for rounding.
+constexpr double root_ball_room = 1.000001;
+
+/// Rays of a cell whose directions differ by more than this share of a leaf's mean size over the
+/// BVH's extent go into lists (coherent_spread_with_lists in results/tree_designs.json).
+constexpr double spread_factor = 0.5;
+
+/// The spread stays between these. At 0.3 all scenes were slower than at 0.1 (coherent_spread in
+/// results/tree_designs.json).
+constexpr double least_spread = 0.002;
+constexpr double largest_spread = 0.1;
 
 float round_down(double x)
 {
@@ -37,10 +54,10 @@ float round_up(double x)
     return std::nextafter(rounded, std::numeric_limits<float>::infinity());
 }
 
-/// Half the sizes of a box with room for what rounding does to a centre and a radius.
+/// Half the sizes of a box, with room for rounding.
 Vec3 with_slack(const CenteredBox& box)
 {
-    return box.half * (1.0 + 1e-6) + glm::abs(box.center) * 3e-7;
+    return box.half * (1.0 + half_slack) + glm::abs(box.center) * center_slack;
 }
 
 BvhItem make_item(const CenteredBox& box, std::size_t number, ItemKind kind)
@@ -61,7 +78,7 @@ constexpr ItemKind item_kind = Object::kind == abi::SurfaceKind::sphere    ? sph
                                : Object::kind == abi::SurfaceKind::polygon ? polygon_item
                                                                            : quadric_item;
 
-/// Writes items of the objects that fit, in order; returns the end of them.
+/// Writes the items of the objects that are in the BVH, in order; returns their end.
 template <class Object>
 BvhItem* fill_items(const LoweredScene& lowered, const std::vector<Object>& objects, BvhItem* items)
 {
@@ -70,11 +87,11 @@ BvhItem* fill_items(const LoweredScene& lowered, const std::vector<Object>& obje
         items[number] = make_item(box_of(object), number, item_kind<Object>);
     });
     return std::remove_if(items, items + objects.size(), [&](const BvhItem& item) {
-        return !is_in_tree(lowered, objects[item.number]);
+        return !is_in_bvh(lowered, objects[item.number]);
     });
 }
 
-Bvh build_tree(const LoweredScene& lowered)
+Bvh build_bvh_of(const LoweredScene& lowered)
 {
     const auto items = AlignedArray<BvhItem>::unset(
         lowered.spheres.size() + lowered.quadrics.size() + lowered.polygons.size());
@@ -94,8 +111,7 @@ float extent_of(const abi::BvhNode& root)
     return extent;
 }
 
-/// From the mean size of a leaf against the hierarchy's; chosen by the races of
-/// results/tree_designs.json.
+/// BvhView::spread, from the mean size of a leaf over the BVH's extent.
 float coherent_spread(const std::vector<abi::BvhNode>& nodes, float extent)
 {
     double sizes = 0.0;
@@ -110,35 +126,37 @@ float coherent_spread(const std::vector<abi::BvhNode>& nodes, float extent)
             sizes += glm::length(size);
             leaves += 1.0;
         }
-    return static_cast<float>(std::clamp(0.5 * sizes / (leaves * extent), 0.002, 0.1));
+    return static_cast<float>(
+        std::clamp(spread_factor * sizes / (leaves * extent), least_spread, largest_spread));
 }
 
 double worst_slack(const LoweredScene& lowered)
 {
     double condition = 1.0;
     for (const LoweredQuadric& quadric : lowered.quadrics)
-        if (is_in_tree(lowered, quadric))
+        if (is_in_bvh(lowered, quadric))
             condition = std::max(condition, quadric.condition);
     return sphere_slack * condition;
 }
 
-/// How many of what leaves hold there are: blocks of spheres, and objects of the other kinds.
+/// How many records all leaves need, by kind: a block for up to eight spheres, a record for each
+/// other object.
 using LeafCounts = std::array<std::uint32_t, item_kinds>;
 
-std::uint32_t places_of(const BvhLeaf& leaf)
+std::uint32_t records_of(const BvhLeaf& leaf)
 {
     return leaf.kind == sphere_item ? 1 : leaf.count;
 }
 
-LeafCounts count_places(const Bvh& bvh)
+LeafCounts count_records(const Bvh& bvh)
 {
     LeafCounts count{};
     for (const BvhLeaf& leaf : bvh.leaves)
-        count[leaf.kind] += places_of(leaf);
+        count[leaf.kind] += records_of(leaf);
     return count;
 }
 
-/// What nodes name each leaf by. Runs are numbered through, quadrics first.
+/// The names by which nodes refer to leaves. Records of runs share one numbering, quadrics first.
 std::vector<std::uint32_t> leaf_names(const Bvh& bvh, const LeafCounts& count)
 {
     LeafCounts next{};
@@ -150,7 +168,7 @@ std::vector<std::uint32_t> leaf_names(const Bvh& bvh, const LeafCounts& count)
         if (leaf.kind != sphere_item)
             name |= abi::run_bit | (leaf.count - 1) << abi::run_count_shift;
         names.push_back(name);
-        next[leaf.kind] += places_of(leaf);
+        next[leaf.kind] += records_of(leaf);
     }
     return names;
 }
@@ -166,8 +184,8 @@ std::vector<const LoweredPolygon*> polygons_of_runs(const LoweredScene& lowered,
     return polygons;
 }
 
-/// What a child is named that is not there: a leaf that is, as rays from infinitely far away meet
-/// any box.
+/// The name of an absent child: that of an existing leaf, because rays from infinitely far away hit
+/// every box.
 std::uint32_t absent_name(const LeafCounts& count)
 {
     return count[sphere_item] > 0 ? abi::leaf_bit : abi::leaf_bit | abi::run_bit;
@@ -185,10 +203,11 @@ void name_leaves(std::span<abi::BvhNode> nodes, const std::vector<std::uint32_t>
         }
 }
 
-/// How far rounding to Real moves the centre of any of the spheres, at most.
+/// The largest distance by which rounding to Real moves a sphere's centre.
 template <class Real>
 float worst_center_error(const std::vector<LoweredSphere>& spheres)
 {
+    // Enough work for a task to be worth its start.
     constexpr std::size_t task_spheres = 4096;
     return tbb::parallel_reduce(
         tbb::blocked_range<std::size_t>(0, spheres.size(), task_spheres), 0.0f,
@@ -200,7 +219,7 @@ float worst_center_error(const std::vector<LoweredSphere>& spheres)
         [](float a, float b) { return std::max(a, b); });
 }
 
-/// The box of what is in a leaf. It is rounded once, so that nearly all is done in double.
+/// The box of a leaf's objects, computed in double and rounded once.
 template <class Object>
 Box4 box_of_leaf(const std::vector<Object>& objects, const Bvh& bvh, const BvhLeaf& leaf)
 {
@@ -240,10 +259,10 @@ void refit_tree(const LoweredScene& lowered, Bvh& bvh)
 template <class Real>
 PackedTree<Real>::PackedTree(const LoweredScene& lowered, Bvh* keep)
 {
-    Bvh bvh = build_tree(lowered);
+    Bvh bvh = build_bvh_of(lowered);
     if (bvh.nodes.empty())
         return;
-    const LeafCounts count = count_places(bvh);
+    const LeafCounts count = count_records(bvh);
     nodes_ = AlignedArray<abi::BvhNode>::unset(bvh.nodes.size());
     blocks_ = AlignedArray<abi::SphereBlock<Real>>::unset(count[sphere_item]);
     block_surfaces_ =
@@ -265,7 +284,7 @@ PackedTree<Real>::PackedTree(const LoweredScene& lowered, Bvh* keep)
         *keep = std::move(bvh);
 }
 
-/// Fills in all that does not follow from how many objects and nodes there are.
+/// Fills in all but the sizes and pointers, which depend on the numbers of objects and nodes alone.
 template <class Real>
 void PackedTree<Real>::refit(const LoweredScene& lowered, const Bvh& bvh)
 {
@@ -295,8 +314,8 @@ void PackedTree<Real>::bound_root(const abi::BvhNode& root)
         view_.middle[axis] = static_cast<float>(0.5 * low[axis] + 0.5 * high[axis]);
         rounded[axis] = double{view_.middle[axis]};
     }
-    view_.radius =
-        round_up(1.000001 * std::max(glm::length(high - rounded), glm::length(low - rounded)));
+    view_.radius = round_up(root_ball_room *
+                            std::max(glm::length(high - rounded), glm::length(low - rounded)));
 }
 
 template <class Real>
@@ -313,11 +332,11 @@ abi::BvhView<double> PackedTree<Real>::wide_view(const abi::ShapesView& shapes) 
             .spread = view_.spread};
 }
 
-/// Also points the nodes' leaves to where they are packed.
+/// Packs the leaves' objects, and puts the leaves' names into the nodes.
 template <class Real>
 void PackedTree<Real>::pack_leaves(const LoweredScene& lowered, const Bvh& bvh)
 {
-    const LeafCounts count = count_places(bvh);
+    const LeafCounts count = count_records(bvh);
     const std::vector<std::uint32_t> names = leaf_names(bvh, count);
     for_each_in_parallel(bvh.leaves, [&](const BvhLeaf& leaf) {
         const std::uint32_t name = names[static_cast<std::size_t>(&leaf - bvh.leaves.data())];
@@ -334,7 +353,7 @@ void PackedTree<Real>::pack_leaves(const LoweredScene& lowered, const Bvh& bvh)
     name_leaves({nodes_.data(), nodes_.size()}, names, absent_name(count));
 }
 
-/// The run begins with the number `first`, and `records` with the number `base`.
+/// `first` is the number of the run's first record, `base` that of the first one in `records`.
 template <class Real>
 template <class Object, class Record>
 void PackedTree<Real>::pack_run(const std::vector<Object>& objects, const Bvh& bvh,
@@ -354,7 +373,7 @@ void PackedTree<Real>::pack_block(const LoweredScene& lowered, const Bvh& bvh, c
 {
     abi::SphereBlock<Real>& block = blocks_[index];
     std::int32_t* const surfaces = &block_surfaces_[std::size_t{index} * abi::node_width];
-    // Unused places: a sphere of negative size where nothing is.
+    // Unused slots hold spheres of negative radius, at the largest coordinate of objects in a BVH.
     constexpr Real nowhere = Real(1e15);
     for (std::uint32_t i = 0; i < abi::node_width; ++i) {
         const bool used = i < leaf.count;

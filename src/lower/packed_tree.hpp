@@ -7,21 +7,20 @@
 
 namespace packtrace {
 
-/// Gives a hierarchy over a scene's objects the boxes that they have now; each is still of its
-/// kind.
+/// Refits the BVH of a scene to the boxes of objects that have moved; each is still of its kind.
 void refit_tree(const LoweredScene& lowered, Bvh& bvh);
 
-/// A hierarchy over the objects that are in one (tree_objects.hpp), in the arrays and the precision
+/// The BVH of a scene (tree_objects.hpp says over which objects), as arrays in the precision that
 /// the kernels read.
 template <class Real>
 class PackedTree {
 public:
     PackedTree() = default;
-    /// `keep`, if any, gets the hierarchy as refit() needs it.
+    /// `keep`, if given, receives the BVH for refit().
     explicit PackedTree(const LoweredScene& lowered, Bvh* keep = nullptr);
 
-    /// Packs the objects anew, and the boxes of `bvh`, which this was made of and refit_tree() has
-    /// been at since.
+    /// Packs the objects anew, and the boxes of `bvh`, from which this was made and which
+    /// refit_tree() has refitted.
     void refit(const LoweredScene& lowered, const Bvh& bvh);
 
     /// Valid as long as this object; empty for a default one.
@@ -30,10 +29,10 @@ public:
         return view_;
     }
 
-    /// The same hierarchy for rays in double, whose leaves are made of `shapes`.
+    /// The same BVH for rays in double; spheres in its leaves are made from `shapes`.
     [[nodiscard]] abi::BvhView<double> wide_view(const abi::ShapesView& shapes) const;
 
-    /// Tells the leaves' quadrics where their records in double are.
+    /// Sets where the shapes of all surfaces are, in double.
     void set_shapes(const abi::ShapesView& shapes)
     {
         view_.shapes = &shapes;
@@ -44,7 +43,7 @@ public:
         return run_surfaces_.size() == 0;
     }
 
-    /// Of spheres, eight each.
+    /// Number of blocks, of eight spheres each.
     [[nodiscard]] int block_count() const
     {
         return static_cast<int>(blocks_.size());

@@ -26,7 +26,7 @@ void add_features(const LoweredMaterial& material, LoweredScene& lowered)
     lowered.features.glass |= material.transmit != Rgb(0.0);
 }
 
-/// By material: whether a surface has it.
+/// By material, whether a surface has it.
 std::vector<bool> used_materials(const LoweredScene& lowered)
 {
     std::vector<bool> used(lowered.materials.size(), false);
@@ -62,7 +62,7 @@ std::uint64_t hash_of(const std::vector<double>& key)
 
 struct HashedSurface {
     std::uint64_t hash;
-    std::uint32_t number;  ///< in the list
+    std::uint32_t number;  ///< index in the list
 
     bool operator<(const HashedSurface& other) const
     {
@@ -81,7 +81,8 @@ std::vector<HashedSurface> sorted_by_hash(const std::vector<Surface>& surfaces)
     return sorted;
 }
 
-/// Of equal surfaces all but the first. What differs in its shadow stays.
+/// Removes all but the first of equal surfaces; returns how many. Surfaces are not equal where only
+/// one casts a shadow.
 template <class Surface>
 std::size_t remove_duplicates_of(std::vector<Surface>& surfaces, const std::vector<bool>& casts)
 {
@@ -112,7 +113,7 @@ void add(std::vector<LeftOut>& left_out, std::size_t count, const std::string& n
         left_out.push_back({counted(static_cast<std::int64_t>(count), noun), why});
 }
 
-/// Where rays see the lights themselves, a dark one hides the background.
+/// Where lights are visible, a dark light hides the background and stays.
 std::size_t remove_dark_lights(LoweredScene& lowered)
 {
     if (lowered.visible_lights)
@@ -121,8 +122,8 @@ std::size_t remove_dark_lights(LoweredScene& lowered)
                          [](const Light& light) { return light.intensity == Rgb(0.0); });
 }
 
-/// A mirror or a glass counts only where a ray may go on from it, or where the depth limit itself
-/// has a colour.
+/// Mirrors and glass count only where a secondary ray may leave them, or where the depth limit has
+/// a colour.
 void narrow_bounces(LoweredScene& lowered)
 {
     if (lowered.max_depth == 0 && lowered.limit_color == Rgb(0.0))
@@ -146,7 +147,7 @@ void narrow_shadows(LoweredScene& lowered)
         lowered.casts_shadow.clear();
 }
 
-/// Hits of a flat scene show their ambient light.
+/// Hits of a flat scene show their ambient light only.
 void narrow_hits(LoweredScene& lowered)
 {
     lowered.flat = lowered.lights.empty() && !lowered.bounces;

@@ -7,31 +7,30 @@
 #include <string>
 #include <vector>
 
-// What a picture needs of its scene, and what it does without (docs/features.md).
+// Pruning: a scene without what cannot change its picture (docs/features.md).
 namespace packtrace {
 
-/// Finds what of its features a scene uses, whatever its lights and depth are.
+/// Finds the features that a scene's materials and objects use, whatever its lights and depth are.
 void find_features(LoweredScene& lowered);
 
-/// Removes surfaces that are an earlier one of their kind once more: at equal t the lower number is
-/// hit, so they are never seen. Where light passes through objects each counts, and nothing is
-/// removed. Returns how many surfaces went.
+/// Removes surfaces that are equal to an earlier one of their kind: at equal t the lower number is
+/// hit, so they are never seen. In scenes with glass nothing is removed, because light passes
+/// through all of them. Returns how many surfaces were removed.
 std::size_t remove_duplicates(LoweredScene& lowered);
 
-/// Something that a picture does without, and why it may.
+/// Something that was pruned from a picture's scene, and the reason.
 struct LeftOut {
     std::string what;
     std::string why;
 };
 
-/// Takes out of a scene what can't change a bit of its picture, and narrows its features to what
-/// is left: dark lights, objects in another's very place, reflections that no depth allows,
-/// shadows that nothing casts, hits that nothing would be done with. For pictures alone: rays of
-/// the caller's own may ask for all of it.
+/// Removes from a scene what cannot change a bit of its picture, and narrows its features to those
+/// that remain: dark lights, duplicates, reflections beyond the depth, shadows without a caster,
+/// normals that no light needs. For pictures only: a caller's own rays may use any of it.
 std::vector<LeftOut> prune(LoweredScene& lowered);
 
-/// Everything that the kernels chosen for a scene are without, in the order of a frame's stages.
-/// `lowered` is what prune() left.
+/// All that the kernels chosen for a scene do without, in the order of a frame's stages. `lowered`
+/// has been pruned.
 [[nodiscard]] std::vector<LeftOut> unused_features(const LoweredScene& lowered,
                                                    Traversal traversal);
 

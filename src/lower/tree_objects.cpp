@@ -9,55 +9,56 @@
 namespace packtrace {
 namespace {
 
-/// At most so many are left out, and no more than this share: each packet meets lists whole.
+/// An object is far away if its extent is more than this times the median extent.
+constexpr double far_factor = 64.0;
+
+/// At most so many far objects, and at most one of so many objects, stay in lists: every packet is
+/// tested against all objects of a list.
 constexpr std::size_t most_far_objects = 16;
-constexpr std::size_t share_of_far_objects = 8;
+constexpr std::size_t objects_a_far_object = 8;
 
-/// So many times as far as the median object's reach lies what is left out.
-constexpr double far_reach = 64.0;
-
-std::vector<double> reaches_of(const SurfaceLists& surfaces)
+std::vector<double> extents_of(const SurfaceLists& surfaces)
 {
-    std::vector<double> reaches;
+    std::vector<double> extents;
     for_each_surface(surfaces, [&](const auto& surface) {
         if constexpr (requires { box_of(surface); })
             if (fits_tree(surface))
-                reaches.push_back(reach_of(box_of(surface)));
+                extents.push_back(extent_of(box_of(surface)));
     });
-    return reaches;
+    return extents;
 }
 
 }  // namespace
 
-double reach_of(const CenteredBox& box)
+double extent_of(const CenteredBox& box)
 {
-    double reach = 0.0;
+    double extent = 0.0;
     for (int axis = 0; axis < 3; ++axis)
-        reach = std::max(reach, std::abs(box.center[axis]) + box.half[axis]);
-    return reach;
+        extent = std::max(extent, std::abs(box.center[axis]) + box.half[axis]);
+    return extent;
 }
 
-double tree_reach(const SurfaceLists& surfaces)
+double bvh_extent(const SurfaceLists& surfaces)
 {
-    std::vector<double> reaches = reaches_of(surfaces);
-    if (reaches.empty())
+    std::vector<double> extents = extents_of(surfaces);
+    if (extents.empty())
         return std::numeric_limits<double>::infinity();
-    const auto middle = reaches.begin() + static_cast<std::ptrdiff_t>(reaches.size() / 2);
-    std::nth_element(reaches.begin(), middle, reaches.end());
-    const double limit = far_reach * *middle;
-    const auto beyond = static_cast<std::size_t>(
-        std::count_if(middle, reaches.end(), [&](double reach) { return reach > limit; }));
+    const auto median = extents.begin() + static_cast<std::ptrdiff_t>(extents.size() / 2);
+    std::nth_element(extents.begin(), median, extents.end());
+    const double limit = far_factor * *median;
+    const auto far_objects = static_cast<std::size_t>(
+        std::count_if(median, extents.end(), [&](double extent) { return extent > limit; }));
     const bool are_few =
-        beyond <= std::min(most_far_objects, reaches.size() / share_of_far_objects);
+        far_objects <= std::min(most_far_objects, extents.size() / objects_a_far_object);
     return are_few ? limit : std::numeric_limits<double>::infinity();
 }
 
-TreeObjects count_tree_objects(const LoweredScene& lowered)
+BvhObjects count_tree_objects(const LoweredScene& lowered)
 {
-    TreeObjects count;
+    BvhObjects count;
     for_each_surface(lowered, [&](const auto& surface) {
         using Kind = std::decay_t<decltype(surface)>;
-        if (!is_in_tree(lowered, surface))
+        if (!is_in_bvh(lowered, surface))
             return;
         if constexpr (std::is_same_v<Kind, LoweredSphere>)
             ++count.spheres;

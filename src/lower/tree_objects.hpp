@@ -4,29 +4,30 @@
 
 #include <cstddef>
 
-// Which objects of a scene its hierarchy holds. The others stay in lists.
+// Which objects of a scene are in its BVH. The others stay in lists.
 namespace packtrace {
 
-/// The largest coordinate, in size, of what a box holds.
-[[nodiscard]] double reach_of(const CenteredBox& box);
+/// The largest magnitude of a coordinate in the box.
+[[nodiscard]] double extent_of(const CenteredBox& box);
 
-/// How far from the world's origin the hierarchy over a scene's surfaces reaches. Boxes are met
-/// with room for rounding by the largest coordinate of all: the few that are very far from where
-/// the rest is are left out, lest boxes of the rest have more room than size.
-[[nodiscard]] double tree_reach(const SurfaceLists& surfaces);
+/// The largest extent of an object in the BVH of a scene; infinite where none is too far away.
+/// Tests widen all boxes by a rounding error that grows with the largest coordinate in the BVH. A
+/// few objects very far away would make this error larger than the other boxes, so they stay in
+/// lists.
+[[nodiscard]] double bvh_extent(const SurfaceLists& surfaces);
 
-/// Whether the hierarchy, if there is one, holds the surface.
+/// Whether the surface is in the BVH, if there is one.
 template <class Kind>
-[[nodiscard]] bool is_in_tree(const LoweredScene& lowered, const Kind& surface)
+[[nodiscard]] bool is_in_bvh(const LoweredScene& lowered, const Kind& surface)
 {
     if constexpr (requires { box_of(surface); })
-        return fits_tree(surface) && reach_of(box_of(surface)) <= lowered.tree_reach;
+        return fits_tree(surface) && extent_of(box_of(surface)) <= lowered.bvh_extent;
     else
         return false;
 }
 
-/// How many objects of a scene can be in a hierarchy.
-struct TreeObjects {
+/// How many objects of a scene can be in a BVH.
+struct BvhObjects {
     std::size_t spheres = 0;
     std::size_t quadrics = 0;
     std::size_t polygons = 0;
@@ -37,6 +38,6 @@ struct TreeObjects {
     }
 };
 
-[[nodiscard]] TreeObjects count_tree_objects(const LoweredScene& lowered);
+[[nodiscard]] BvhObjects count_tree_objects(const LoweredScene& lowered);
 
 }  // namespace packtrace

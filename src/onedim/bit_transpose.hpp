@@ -5,8 +5,8 @@
 #include <cstddef>
 #include <cstdint>
 
-// A register of bits. The compilers' own vector type knows & | ^ ~ << >> on every instruction
-// set; GCC 12 warns wrongly of xsimd's 64-bit shifts for AVX-512.
+// A register of bits, as the compilers' own vector type: it has & | ^ ~ << >> on every instruction
+// set. GCC 12 gives wrong warnings for xsimd's 64-bit shifts with AVX-512.
 namespace packtrace::PACKTRACE_ISA {
 namespace {
 
@@ -32,8 +32,8 @@ inline void store_bits(std::uint64_t* to, vbits x)
 
 inline constexpr int matrix_rows = 64;
 
-// Cuts the bits of each lane into runs of `size`: the odd runs of `a` change places with the
-// even ones of `b`.
+// Cuts the bits of each lane into runs of `size` and swaps the odd runs of `a` with the even ones
+// of `b`.
 template <int size>
 inline void exchange(vbits& a, vbits& b)
 {
@@ -43,8 +43,8 @@ inline void exchange(vbits& a, vbits& b)
     a = a ^ (moved << size);
 }
 
-// Of the six block sizes the three from 4 * step down to step, over rows of which neighbours
-// are `step` apart; eight rows stay in registers.
+// Three of the six block sizes, from 4 * step down to step, over eight rows that are `step` apart
+// and stay in registers.
 template <int step>
 inline void exchange_eight(std::uint64_t* first)
 {

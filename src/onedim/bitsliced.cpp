@@ -1,4 +1,4 @@
-// The bit-sliced solver: systems of about one length are put into groups, whose surfaces the kernel
+// The bit-sliced solver. Systems of about the same length form groups, whose surfaces the kernel
 // takes as bit planes.
 #include "onedim/solvers.hpp"
 
@@ -15,7 +15,7 @@
 namespace packtrace::onedim {
 namespace {
 
-// Lengths of this many words and more are not told apart.
+// All lengths of at least this many words share a bucket.
 constexpr std::size_t longest_bucket = 1024;
 
 std::size_t bucket(std::span<const Surface> system)
@@ -27,8 +27,8 @@ static_assert(std::endian::native == std::endian::little, "a word's low byte is 
 
 constexpr std::size_t word_surfaces = abi::onedim_tile_surfaces;
 
-// Eight surfaces from `first` on. Behind the last one stand zeros, black surfaces that face the
-// eye: they return None, as does the empty space they stand for.
+// Eight surfaces from `first` on. Behind the last one come zeros: black surfaces that face the eye
+// return None, like empty space.
 std::uint64_t word_at(std::span<const Surface> system, std::size_t first)
 {
     std::uint64_t word = 0;
@@ -44,8 +44,8 @@ std::uint64_t word_at(std::span<const Surface> system, std::size_t first)
     return word;
 }
 
-// Eight systems side by side fill a cache line of one tile before it is the next tile's turn:
-// tiles lie 4 KiB apart, where the lines of all of them compete for the same places in the cache.
+// Eight systems side by side fill a cache line of each tile at once. Tiles lie 4 KiB apart, so that
+// their lines compete for the same places in the cache.
 using Side = std::array<std::span<const Surface>, 8>;
 
 void copy_words(std::span<const std::span<const Surface>> side, std::size_t first,
@@ -64,8 +64,8 @@ void copy_words(std::span<const std::span<const Surface>> side, std::size_t firs
     }
 }
 
-/// Systems solved together, one bit of a register each, with memory that does not depend on
-/// their length: a run of surfaces at a time, from the far end.
+/// Systems that are solved together, each in one bit of a register. They are read a run of surfaces
+/// at a time, from the far end, so that the memory does not depend on their length.
 class Group {
 public:
     explicit Group(const abi::OnedimTable& kernel);
@@ -78,7 +78,7 @@ public:
                std::span<Intensity> answers);
 
 private:
-    static constexpr std::size_t run_tiles = 8;
+    static constexpr std::size_t run_tiles = 8;   ///< 32 kB with the widest registers
     static constexpr std::size_t most_words = 8;  ///< of a plane, on any instruction set
 
     void gather(const Systems& systems, std::span<const std::uint32_t> members, std::size_t first,
@@ -151,15 +151,15 @@ void Group::solve(const Systems& systems, std::span<const std::uint32_t> members
 
 std::vector<std::uint32_t> order_by_length(const Systems& systems)
 {
-    // A counting sort: the systems of each length, then where each length's place begins.
-    std::array<std::uint32_t, longest_bucket + 1> place{};
+    // A counting sort: count the systems of each length, then find the first index of each length.
+    std::array<std::uint32_t, longest_bucket + 1> next{};
     for (std::size_t k = 0; k < systems.size(); ++k)
-        ++place[bucket(systems[k])];
-    std::exclusive_scan(place.begin(), place.end(), place.begin(), std::uint32_t{0});
+        ++next[bucket(systems[k])];
+    std::exclusive_scan(next.begin(), next.end(), next.begin(), std::uint32_t{0});
 
     std::vector<std::uint32_t> order(systems.size());
     for (std::size_t k = 0; k < systems.size(); ++k)
-        order[place[bucket(systems[k])]++] = static_cast<std::uint32_t>(k);
+        order[next[bucket(systems[k])]++] = static_cast<std::uint32_t>(k);
     return order;
 }
 

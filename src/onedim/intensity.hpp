@@ -5,7 +5,7 @@
 #include <array>
 #include <cstddef>
 
-// The note's arithmetic, as its two tables give it.
+// The note's arithmetic, by its two tables.
 namespace packtrace::onedim {
 
 inline constexpr std::array all_intensities{Intensity::none, Intensity::medium, Intensity::all};

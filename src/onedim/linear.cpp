@@ -7,8 +7,8 @@
 namespace packtrace::onedim {
 namespace {
 
-// Transfer functions are the states of an automaton that reads surfaces from the far end. A
-// state's number has the function's three values as digits in base 3.
+// Transfer functions are the states of an automaton that reads surfaces from the far end. The
+// digits of a state's number in base 3 are the function's three values.
 constexpr int states = 27;
 
 constexpr std::uint8_t number(const Transfer& f)
@@ -29,7 +29,7 @@ constexpr Transfer transfer(int number)
     return f;
 }
 
-// [surface code][state] -> state. Rows of codes that are no surface stay 0.
+// [surface code][state] -> state. Rows of invalid codes stay 0.
 using Automaton = std::array<std::array<std::uint8_t, states>, surface_codes>;
 
 constexpr Automaton make_automaton()

@@ -1,4 +1,4 @@
-// Reads the two ways to write a system. Their readers append to `surfaces` and throw SyntaxError.
+// Reads the two notations of a system. Their readers append to `surfaces` and throw SyntaxError.
 #include <packtrace/onedim.hpp>
 
 #include <array>
@@ -23,7 +23,7 @@ std::string found(std::string_view rest)
     return std::string("byte 0x") + digits[byte >> 4] + digits[byte & 15];
 }
 
-/// A place on a line; white space before a token does not count.
+/// A position on a line. White space before a token is skipped.
 class Cursor {
 public:
     explicit Cursor(std::string_view line) : line_(line)
@@ -95,7 +95,7 @@ private:
 constexpr std::string_view left = "Inl";
 constexpr std::string_view right = "Inr";
 
-// A value's parentheses may be doubled, as in `Inr (Inl ())`.
+// A value may have redundant parentheses, as in `Inr (Inl ())`.
 std::size_t open_all(Cursor& cursor)
 {
     std::size_t opened = 0;
@@ -161,8 +161,8 @@ Surface read_surface(Cursor& cursor)
     return surface;
 }
 
-/// `Inl((D, (R, (T, E))), Inl(…, … Inr()))`, as note 003 has it.
-/// A list may be nested as deep as memory allows: its open pairs are counted, not recursed into.
+/// `Inl((D, (R, (T, E))), Inl(…, … Inr()))`, as in note 003. A list may be nested as deep as memory
+/// allows: open pairs are counted, without recursion.
 void read_note(Cursor& cursor, std::vector<Surface>& surfaces)
 {
     std::size_t open_pairs = 0;
@@ -182,7 +182,7 @@ void read_note(Cursor& cursor, std::vector<Surface>& surfaces)
 
 constexpr std::uint8_t unknown = 3;
 
-// A table and not a chain of comparisons, which would be mispredicted at every other letter.
+// A table, because a chain of comparisons would be mispredicted at every other letter.
 constexpr std::array<std::uint8_t, 256> intensity_of_letter = [] {
     std::array<std::uint8_t, 256> table{};
     table.fill(unknown);

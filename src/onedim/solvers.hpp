@@ -8,10 +8,10 @@
 #include <span>
 #include <vector>
 
-// The three solvers that solve() chooses from, each in a source of its own.
+// The three solvers that solve() chooses from, each in its own source file.
 namespace packtrace::onedim {
 
-/// The rays beside the surfaces, numbered as in the note: segment 0 is at the eye.
+/// The rays of the segments between surfaces, numbered as in the note: segment 0 is at the eye.
 struct Rays {
     std::vector<Intensity> left;   ///< L0 … Ln, towards the eye
     std::vector<Intensity> right;  ///< R0 … Rn, away from it
@@ -21,14 +21,14 @@ struct Rays {
 /// a sweep changes none. Returns the number of sweeps, at most 4n + 1.
 std::size_t iterate(std::span<const Surface> system, Rays& rays);
 
-/// L0 of the least solution, from the far end in one look-up a surface.
+/// L0 of the least solution: one look-up for each surface, from the far end.
 [[nodiscard]] Intensity solve_linear(std::span<const Surface> system);
 
-/// The systems' numbers from the shortest to the longest, in words of eight surfaces, equal ones in
-/// order: neighbours share a register, and where they are of one length nothing is padding.
+/// The systems' numbers, sorted by length in words of eight surfaces; equal lengths keep their
+/// order. Neighbours share a register, and need no padding if their lengths are equal.
 [[nodiscard]] std::vector<std::uint32_t> order_by_length(const Systems& systems);
 
-/// Writes L0 of every system to `answers`, a register's bits of systems at a time.
+/// Writes L0 of every system to `answers`, as many systems at a time as a register has bits.
 void solve_bitsliced(const Systems& systems, const abi::OnedimTable& kernel,
                      std::span<Intensity> answers);
 

@@ -7,11 +7,12 @@
 #include <cstddef>
 #include <cstdint>
 
-// Surfaces as steps from one transfer function to the next, and as the numbers that look a step up.
+// Transfer functions, the step by which a surface turns one into the next, and surfaces as numbers
+// to look such steps up by.
 namespace packtrace::onedim {
 
-/// All that the surfaces beyond a segment do to it: the least L of the segment for each R of
-/// it. Always monotone.
+/// What the surfaces beyond a segment return to it: the least L of the segment for each R. Always
+/// monotone.
 struct Transfer {
     std::array<Intensity, 3> left_for{};  ///< by R; all None behind the last surface
 
@@ -29,7 +30,7 @@ constexpr Intensity least_fixpoint(const Function& f)
     return f(f(Intensity::none));
 }
 
-/// The segment before `surface`, given the one beyond it.
+/// The transfer function of the segment before `surface`, given that of the segment beyond.
 constexpr Transfer step(const Surface& surface, const Transfer& beyond)
 {
     Transfer before;
@@ -47,8 +48,8 @@ constexpr Transfer step(const Surface& surface, const Transfer& beyond)
     return before;
 }
 
-// A surface as the number its byte holds: bit 0 direction, bits 1-2 reflectance, 3-4
-// translucence, 5-6 emission; bit 7 is undefined in memory and 0 in a code.
+// A surface's code is the value of its byte: bit 0 direction, bits 1-2 reflectance, 3-4
+// translucence, 5-6 emission. Bit 7 is undefined in memory and 0 in a code.
 
 static_assert(sizeof(Surface) == 1);
 

@@ -10,11 +10,11 @@
 #include <utility>
 #include <vector>
 
-// Light that goes through glass.
+// Refraction, and the glass bodies around a ray.
 namespace packtrace::reference {
 
-/// The direction after Snell's law n1 sin(i) = n2 sin(r), for unit `D` and unit `N` turned
-/// against it; nothing at total internal reflection. Unit again, to rounding.
+/// The refracted direction by Snell's law n1 sin(i) = n2 sin(r), for unit `D` and unit `N` turned
+/// against it. It is unit to rounding; none at total internal reflection.
 template <class Real>
 [[nodiscard]] std::optional<Vec3<Real>> refract(const Vec3<Real>& D, const Vec3<Real>& N, Real n1,
                                                 Real n2)
@@ -28,7 +28,7 @@ template <class Real>
     return eta * D + (eta * cos_i - std::sqrt(cos_r_squared)) * N;
 }
 
-/// What light does on its way through each object.
+/// How each object lets light through.
 template <class Real>
 struct Glass {
     struct Body {
@@ -37,12 +37,12 @@ struct Glass {
     };
     std::vector<Body> bodies;  ///< by object number
 
-    /// The ray that goes on behind the surface at `at`, or nothing at total internal reflection.
+    /// The ray that goes on behind the surface at `at`; none at total internal reflection.
     [[nodiscard]] std::optional<Ray<Real>> refraction_ray(const Ray<Real>& ray,
                                                           const SurfacePoint<Real>& at) const;
 
-    /// What a ray from `camera` starts inside of. The bodies are stacked in the order in which
-    /// they are left going `forward`, the first on top, which puts nested bodies in theirs.
+    /// The initial medium stack of rays from `camera`. A ray along `forward` leaves the bodies from
+    /// top to bottom, so that nested bodies are in their right order.
     [[nodiscard]] GlassStack stack_at(const Bodies<Real>& surfaces, const Vec3<Real>& camera,
                                       const Vec3<Real>& forward) const;
 
@@ -63,15 +63,15 @@ std::optional<Ray<Real>> Glass<Real>::refraction_ray(const Ray<Real>& ray,
 {
     Ray<Real> frac{at.P, ray.dir, ray.inside, at.through()};
     const bool recorded = ray.inside.contains(at.object);
-    // Straight on: in again where the ray already is, or out where it never was, as happens
-    // with open surfaces and with a full stack.
+    // Straight on: the ray enters a body that it is inside of already, or leaves one that it never
+    // entered, as happens with open surfaces and with a full stack.
     if (at.leaving != recorded || (!at.leaving && ray.inside.full()))
         return frac;
     if (at.leaving)
         frac.inside.remove(at.object);
     else
         frac.inside.push(at.object);
-    // Leaving a body further down than the one the ray travels in changes no medium.
+    // Leaving a body below the top of the stack does not change the medium.
     if (at.leaving && ray.inside.top() != at.object)
         return frac;
     const auto dir = refract(ray.dir, at.N, ior_in(ray.inside), ior_in(frac.inside));

@@ -8,11 +8,11 @@
 #include <limits>
 #include <optional>
 
-// Rays of the models that know glass: what they are inside of, and what they hit first.
+// Rays of the models with glass: the media that they are in, and their closest hit.
 namespace packtrace::reference {
 
-/// The glass bodies a ray is inside, by object number, the last entered on top; each at most
-/// once. A body that finds no room is left out, and its surface then bends nothing.
+/// The glass bodies that a ray is inside of, by object number, the last entered on top; each at
+/// most once. Where the stack is full, a body is not recorded, and its surface does not refract.
 class GlassStack {
 public:
     static constexpr int capacity = 8;
@@ -35,7 +35,7 @@ public:
     {
         bodies_[depth_++] = object;
     }
-    /// Takes out a body, wherever in the stack it is.
+    /// Removes a body from any place in the stack.
     void remove(int object)
     {
         depth_ = static_cast<std::size_t>(
@@ -53,16 +53,16 @@ private:
     std::size_t depth_ = 0;
 };
 
-/// A ray of the models that know glass.
+/// A ray of the models with glass.
 template <class Real>
 struct Ray {
     Vec3<Real> org;
     Vec3<Real> dir;  ///< unit
     GlassStack inside;
-    Departure<Real> left = {};  ///< what it leaves; nothing for a ray from the eye
+    Departure<Real> left = {};  ///< the surface that it leaves; none for a ray from the eye
 };
 
-/// What a ray sees of the scene where it meets it first.
+/// The closest hit of a ray with all that shading needs.
 template <class Real>
 struct SurfacePoint {
     Real t;
@@ -73,19 +73,19 @@ struct SurfacePoint {
     Vec3<Real> N;        ///< the same, turned against the ray
     bool leaving;        ///< the ray comes from the inside
 
-    /// Of a ray that goes back to where this one comes from.
+    /// For a ray that leaves on the side from which this one comes.
     [[nodiscard]] Departure<Real> back() const
     {
         return {object, part, outward, leaving ? Side::inner : Side::outer};
     }
-    /// Of a ray that goes on behind the surface.
+    /// For a ray that leaves on the other side.
     [[nodiscard]] Departure<Real> through() const
     {
         return back().towards(leaving ? Side::outer : Side::inner);
     }
 };
 
-/// What a ray from `start` along `D` meets first, up to t_max.
+/// The closest hit of a ray from `start` along `D`, up to t_max.
 template <class Real>
 [[nodiscard]] std::optional<SurfacePoint<Real>> closest_surface(const World<Real>& world,
                                                                 const Start<Real>& start,
@@ -98,7 +98,7 @@ template <class Real>
     if (world.self_hits == SelfHits::exact)
         P = on_surface(world.bodies, hit, P, length(start.org) + std::abs(hit.t) * length(D));
     Facing<Real> at = facing(world.bodies, hit, P, D);
-    // Out of a body at the very place where the ray went in, as through a cone's apex.
+    // The ray leaves a body where it entered it, as through a cone's apex.
     const bool at_once =
         hit.object == start.object && hit.leaving && hit.t <= std::numeric_limits<Real>::min();
     if (at_once && !at.leaving)
@@ -113,7 +113,7 @@ template <class Real>
     return closest_surface(world, start_at(world, ray.left, ray.org), ray.dir, infinity<Real>);
 }
 
-/// The mirrored ray stays in the glass it was in.
+/// The mirrored ray stays in the medium of `ray`.
 template <class Real>
 [[nodiscard]] Ray<Real> reflection_ray(const Ray<Real>& ray, const SurfacePoint<Real>& at)
 {

@@ -10,14 +10,14 @@
 #include <cstddef>
 #include <vector>
 
-// The weights of rays, and the rays that are not traced because of theirs.
+// The weights of rays, and the rays that are not traced because their weight is too small.
 namespace packtrace::reference {
 
-/// Counts the rays that are not traced, and bounds what a pixel lacks for them: camera ray by
-/// camera ray, the largest sum counts. For one thread.
+/// Counts the rays that are not traced, and bounds the light that a pixel lacks: the largest sum of
+/// any one camera ray. For one thread.
 class CutCounter {
 public:
-    /// `most_light` is what a ray can bring, by its generation.
+    /// `most_light` is the largest light that a ray can bring, by generation.
     explicit CutCounter(const std::vector<Rgb>& most_light) : most_light_(most_light)
     {
     }
@@ -38,13 +38,13 @@ public:
         total_.bound = std::max(total_.bound, lacks_ * unit);
     }
 
-    /// Takes over what another thread has counted.
+    /// Adds the counts of another thread.
     void add(const CutCounter& more)
     {
         total_ += more.total_;
     }
 
-    /// The same for another thread, from nothing on.
+    /// An empty counter for another thread.
     [[nodiscard]] CutCounter fresh() const
     {
         return CutCounter(most_light_);
@@ -56,19 +56,19 @@ public:
     }
 
 private:
-    // As the packets count (abi::lack_unit): sums of whole numbers do not depend on their order.
+    // As in the kernels (abi::lack_unit): sums of whole numbers do not depend on their order.
     static constexpr double unit = 0x1p-40;
 
     const std::vector<Rgb>& most_light_;
-    double lacks_ = 0.0;  // of the present camera ray, in units
+    double lacks_ = 0.0;  // by the current camera ray, in units
     CutRays total_;
 };
 
-/// What the colour along a ray is multiplied by on its way to the eye.
+/// The factor from the colour along a ray to its part of the pixel.
 template <class Real>
 struct RayWeight {
     Color<Real> share{1, 1, 1};
-    CutCounter* cuts = nullptr;  ///< where rays that are not traced are recorded, if anywhere
+    CutCounter* cuts = nullptr;  ///< counts the rays that are not traced; may be null
 
     /// The weight of a child whose colour the ray multiplies by `factor`.
     [[nodiscard]] RayWeight of_child(const Color<Real>& factor) const
@@ -77,8 +77,8 @@ struct RayWeight {
     }
 };
 
-/// Not in the notes: whether a ray of this weight and generation is left out, as
-/// Scene::min_weight asks. It then brings nothing.
+/// Not in the notes: whether a ray of this weight and generation is not traced because of
+/// Scene::min_weight. It then brings no light.
 template <class Real>
 [[nodiscard]] bool is_cut(const World<Real>& world, const RayWeight<Real>& weight, int generation)
 {

@@ -5,73 +5,74 @@
 
 #include <vector>
 
-// Recorders: what the notes tell of the rays they trace, to nobody or into a tree.
+// Recorders receive the events of tracing: NoRecorder ignores them, TreeRecorder builds a ray tree.
 namespace packtrace::reference {
 
-/// The notes tell a recorder what they do, as they do it. This one, the usual, hears nothing, and
-/// nothing of it is left when compiled; TreeRecorder keeps the tree of rays.
+/// The interface of a recorder. The models call it while they trace. This one, the default, does
+/// nothing and compiles to nothing.
 struct NoRecorder {
-    /// Ends a ray where it goes out of scope.
+    /// Ends its ray when it goes out of scope.
     struct Traced {
         ~Traced()
         {
         }
     };
 
-    /// A ray from here on, all that is told being about it until it ends: a camera ray, or the
-    /// child announced last.
+    /// Begins a ray: a camera ray, or the child announced last. Later calls are about this ray
+    /// until it ends.
     template <class Real>
     [[nodiscard]] Traced ray(const Vec3<Real>&, const Vec3<Real>&) const
     {
         return {};
     }
-    /// The ray's closest hit: t, object, point and the normal that is shaded.
+    /// The ray's closest hit: t, object, point and shading normal.
     template <class Real>
     void hit(Real, int, const Vec3<Real>&, const Vec3<Real>&) const
     {
     }
-    /// The same in a note that has no such normal: the outward one in world space; the
-    /// last argument is the ray's direction.
+    /// The closest hit of a model without a shading normal in world space: the outward normal is
+    /// recorded. The last argument is the ray's direction.
     template <class Real>
     void outward_hit(const Bodies<Real>&, const Hit<Real>&, const Vec3<Real>&,
                      const Vec3<Real>&) const
     {
     }
-    /// What the ray sees as it hits nothing.
+    /// The colour of a ray that hits nothing.
     template <class Real>
     [[nodiscard]] Color<Real> miss(const Color<Real>& color) const
     {
         return color;
     }
-    /// The share of light number `light` that reaches the hit; `adds` is told of this light.
+    /// The share of light number `light` that reaches the hit. Later calls of adds() are about this
+    /// light.
     template <class Real>
     [[nodiscard]] Color<Real> share(int, const Color<Real>& share) const
     {
         return share;
     }
-    /// The same where a light is blocked or not.
-    [[nodiscard]] bool blocked(int, bool blocked) const
+    /// The same for a light that is occluded or not.
+    [[nodiscard]] bool occluded(int, bool occluded) const
     {
-        return blocked;
+        return occluded;
     }
-    /// One of the colours the light adds to the local light.
+    /// A colour that the light adds to the local light.
     template <class Real>
     [[nodiscard]] Color<Real> adds(const Color<Real>& color) const
     {
         return color;
     }
-    /// What the object's colour leaves of all lights, in a note that multiplies by it last.
+    /// The object's colour, in a model that multiplies the sum of all lights by it.
     template <class Real>
     void tint(const Color<Real>&) const
     {
     }
-    /// What the hit itself sends back along the ray.
+    /// The local light of the hit.
     template <class Real>
     [[nodiscard]] Color<Real> local(const Color<Real>& color) const
     {
         return color;
     }
-    /// A child is next, its colour to be multiplied by `factor`.
+    /// Announces a child ray, whose colour is multiplied by the argument.
     template <class Real>
     void mirrored(const Color<Real>&) const
     {
@@ -80,7 +81,7 @@ struct NoRecorder {
     void refracted(const Color<Real>&) const
     {
     }
-    /// What the child brings that the depth limit keeps from being traced.
+    /// The colour of the announced child, which the depth limit keeps from being traced.
     template <class Real>
     [[nodiscard]] Color<Real> limit(const Color<Real>& color) const
     {
@@ -88,14 +89,13 @@ struct NoRecorder {
     }
 };
 
-/// Keeps what NoRecorder describes as a tree of rays. Copies share the tree, so that a note of
-/// const methods can hold one.
+/// Builds a tree of rays. Copies share the tree, so that a model's const methods can record.
 class TreeRecorder {
 public:
-    /// The tree as far as it has grown, and the way from its root to the ray being traced.
+    /// The tree so far, and the path from its root to the ray being traced.
     struct Growth {
         RayNode root;
-        std::vector<RayNode*> open;
+        std::vector<RayNode*> open;  ///< the path
         RayKind next = RayKind::camera;
         Rgb factor{1.0};  ///< of the next child
     };
@@ -152,10 +152,10 @@ public:
         now().lights.push_back({light, rgb(share), Rgb(0.0)});
         return share;
     }
-    [[nodiscard]] bool blocked(int light, bool blocked) const
+    [[nodiscard]] bool occluded(int light, bool occluded) const
     {
-        now().lights.push_back({light, Rgb(blocked ? 0.0 : 1.0), Rgb(0.0)});
-        return blocked;
+        now().lights.push_back({light, Rgb(occluded ? 0.0 : 1.0), Rgb(0.0)});
+        return occluded;
     }
     template <class Real>
     [[nodiscard]] Color<Real> adds(const Color<Real>& color) const
@@ -200,7 +200,7 @@ private:
     {
         return {static_cast<double>(v.x), static_cast<double>(v.y), static_cast<double>(v.z)};
     }
-    // A child may be added while only its ancestors are open, none of which moves.
+    // Only the ancestors of a new child are open, and adding the child moves none of them.
     [[nodiscard]] Traced begin_ray(const Rgb& org, const Rgb& dir) const
     {
         RayNode* node = &growth_->root;

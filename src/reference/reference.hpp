@@ -15,10 +15,9 @@
 
 namespace packtrace::reference {
 
-/// A scene made ready for the scalar reference in one precision. Tracing changes nothing, so
-/// that pixels may be traced from several threads.
-/// `Recorder` is told what the note does; see NoRecorder. `cuts`, if any, counts the rays that
-/// Scene::min_weight leaves out.
+/// A scene made ready for the scalar reference in one precision. Several threads may trace at once.
+/// `Recorder` receives the events of tracing; see NoRecorder. `cuts`, if given, counts the rays
+/// that are not traced because of Scene::min_weight.
 template <class Real, class Recorder = NoRecorder>
 class Reference {
 public:
@@ -31,12 +30,12 @@ public:
     /// The colour of the pixel in column `i` and row `j`, not clamped.
     [[nodiscard]] Color<Real> trace_pixel(int i, int j, CutCounter* cuts = nullptr) const;
 
-    /// The colour along a camera ray; `dir` as the camera makes it, which for `scratch` counts:
-    /// t begins at 1.
+    /// The colour along a camera ray. `dir` has the length that the camera gives it: in the
+    /// model of note 001 such rays start at t = 1.
     [[nodiscard]] Color<Real> trace_ray(const Vec3<Real>& org, const Vec3<Real>& dir,
                                         CutCounter* cuts = nullptr) const;
 
-    /// The mean colour of the pixel over samples at `places`, as Camera::pixel_sample has them.
+    /// The mean colour of the pixel over samples at `places`, in the units of Camera::pixel_sample.
     [[nodiscard]] Color<Real> trace_samples(int i, int j, const std::vector<Vec2>& places,
                                             CutCounter* cuts = nullptr) const;
 

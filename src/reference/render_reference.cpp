@@ -41,7 +41,8 @@ public:
             trace_all(image, region_, sample_pattern(options_.samples));
     }
 
-    /// All pixels once, those `around` too; then those with contrast in full.
+    /// Traces one sample for each pixel of `around`, then all samples of the region's pixels with
+    /// contrast.
     void trace_adaptive(Image<Real>& image, const Region& around)
     {
         Image<Real> wide(around.width, around.height);
@@ -62,7 +63,7 @@ public:
 private:
     using Cuts = reference::CutCounter;
 
-    /// `image` holds `part`. Of its pixels those asked for count.
+    /// `image` holds `part`. Only pixels of the region are added to the cuts.
     void trace_all(Image<Real>& image, const Region& part, const std::vector<Vec2>& places)
     {
         each_pixel(part, [&](int i, int j, Cuts* cuts) {
@@ -72,8 +73,8 @@ private:
         });
     }
 
-    /// Calls `work(i, j, cuts)` for the pixels of `part`, until a stop is asked for: a row of many
-    /// samples in glass can take minutes.
+    /// Calls `work(i, j, cuts)` for the pixels of `part`. A stop is checked for at each pixel: a
+    /// row of many samples in glass can take minutes.
     template <class Work>
     void each_pixel(const Region& part, const Work& work)
     {
@@ -83,7 +84,7 @@ private:
         });
     }
 
-    // Rows count by themselves: their sums do not depend on threads.
+    // Each row has its own counter, so that the sums do not depend on threads.
     template <class Work>
     void each_row(const Region& part, const Work& work)
     {

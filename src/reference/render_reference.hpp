@@ -8,16 +8,16 @@
 
 namespace packtrace {
 
-/// Renders a scene with the scalar reference, in float, double or long double. Threads, sampling,
-/// self-hits, progress, stop and region (within the picture) count of the options, the latter
-/// called with the share of rows done, never falling. Rays that Scene::min_weight leaves out are
-/// added to `cuts`, if any.
+/// Renders a scene with the scalar reference, in float, double or long double. It uses these
+/// options: threads, samples, adaptive, self_hits, progress, stop and region (within the picture).
+/// Progress is called with the share of rows done, never falling. `cuts`, if given, counts the rays
+/// that are not traced because of Scene::min_weight.
 template <class Real>
 [[nodiscard]] Image<Real> render_reference(const Scene& scene, const RenderOptions& options = {},
                                            reference::CutCounter* cuts = nullptr);
 
-/// The same for the rows of `image` alone, the first of which is row `first` of the picture. They
-/// have the bits they have in the whole picture.
+/// Renders rows of the picture into `image`, from row `first` on. They have the same bits as in the
+/// whole picture.
 template <class Real>
 void render_reference_rows(const reference::Reference<Real>& reference, int picture_height,
                            const RenderOptions& options, int first, Image<Real>& image,

@@ -8,14 +8,15 @@
 #include <cmath>
 #include <optional>
 
-// What lies between a hit and a light, and the share of the light that passes it.
+// Shadow rays: the occluders between a hit and a light, and the share of the light that passes
+// them.
 namespace packtrace::reference {
 
 /// The straight way from a point to a light.
 template <class Real>
 struct WayToLight {
-    Vec3<Real> L;  ///< unit
-    Real distance;
+    Vec3<Real> L;   ///< unit
+    Real distance;  ///< infinite for a directional light
     const LightSource<Real>& light;
 };
 
@@ -30,8 +31,8 @@ template <class Real>
     return {v / distance, distance, light};
 }
 
-/// Where a light is that surfaces in its own place are not in the way of: a point light, but by
-/// SelfHits::note.
+/// The position of a light whose own place does not count as occluded: that of a point light by
+/// SelfHits::exact; none for other lights.
 template <class Real>
 [[nodiscard]] std::optional<Vec3<Real>> place_of_light(const World<Real>& world,
                                                        const LightSource<Real>& light)
@@ -41,12 +42,12 @@ template <class Real>
     return light.vector;
 }
 
-/// Whether a body is in the way from `start` to `start` + `t_end` D. Where a light at the end lies
-/// on it, the root nearest to that does not count: rounding leaves some before the end, and some
-/// behind it.
+/// Whether a body is hit between `start` and `start` + `t_end` D. If `light`, at the end, lies on
+/// the body, the root nearest to the end does not count: rounding may put it before the end or
+/// behind.
 template <class Real, class Body>
-[[nodiscard]] bool is_in_way(const Body& body, const Start<Real>& start, const Vec3<Real>& D,
-                             Real t_end, const std::optional<Vec3<Real>>& light)
+[[nodiscard]] bool occludes(const Body& body, const Start<Real>& start, const Vec3<Real>& D,
+                            Real t_end, const std::optional<Vec3<Real>>& light)
 {
     const Roots<Real> roots = roots_from(body, start, D);
     const auto is_within = [&](const auto& root) {
@@ -63,23 +64,23 @@ template <class Real, class Body>
     return within > (at_light && is_within(*nearest) ? 1 : 0);
 }
 
-/// Whether any of some bodies is.
+/// Whether any of the bodies occludes.
 template <class Real>
 [[nodiscard]] bool any_in_way(const Bodies<Real>& bodies, const Start<Real>& start,
                               const Vec3<Real>& D, Real t_end,
                               const std::optional<Vec3<Real>>& light)
 {
-    bool blocked = false;
+    bool occluded = false;
     visit_bodies(bodies, [&](const auto& body) {
-        blocked = is_in_way(body, start, D, t_end, light);
-        return !blocked;
+        occluded = occludes(body, start, D, t_end, light);
+        return !occluded;
     });
-    return blocked;
+    return occluded;
 }
 
-/// The share of a light that reaches the point of a hit: one where nothing is in the way, nothing
-/// behind an opaque occluder; with transparent shadows the product of what each blocking object
-/// passes on, once however often the way crosses it.
+/// The share of a light that reaches the point of a hit: 1 without an occluder, 0 behind an opaque
+/// one. With transparent shadows it is the product of the occluders' transmittances; each counts
+/// once, however often the ray hits it.
 template <class Real>
 [[nodiscard]] Color<Real> light_share(const World<Real>& world, const Glass<Real>& glass,
                                       const SurfacePoint<Real>& at, const WayToLight<Real>& way)
@@ -90,7 +91,7 @@ template <class Real>
     const Start<Real> start = start_at(world, at.back().along(way.L), at.P);
     const auto place = place_of_light(world, way.light);
     visit_bodies(world.occluders, [&](const auto& body) {
-        if (!is_in_way(body, start, way.L, way.distance, place))
+        if (!occludes(body, start, way.L, way.distance, place))
             return true;
         const bool opaque = world.shadows == ShadowKind::opaque;
         share = opaque ? Color<Real>()

@@ -7,14 +7,13 @@
 
 namespace packtrace::reference {
 
-/// How far along a ray its own start is no hit: note 001 and note 004 name this number. Note
-/// 001 counts it in lengths of its directions, which are not normalised; the others in units
-/// of length.
+/// The t_min of secondary rays by SelfHits::note. Notes 001 and 004 name this number. Note 001
+/// counts it in lengths of its directions, which are not normalised; the others in units of length.
 template <class Real>
 inline constexpr Real epsilon = Real(0.001L);
 
-/// The piece of a surface that a ray leaves, and on which side: both are decided once, where the
-/// ray is made.
+/// The piece of a surface that a ray leaves, and the side. Both are decided once, when the ray is
+/// made.
 template <class Real>
 struct Departure {
     int object = -1;  ///< -1 for a ray from an eye
@@ -30,27 +29,27 @@ struct Departure {
     {
         return {object, part, outward, other};
     }
-    /// By the direction alone, as rays to lights leave.
+    /// On the side of direction `D`, as rays to lights leave.
     [[nodiscard]] Departure along(const Vec3<Real>& D) const
     {
         return towards(dot(outward, D) >= 0 ? Side::outer : Side::inner);
     }
 };
 
-/// Where a ray begins, and what it begins on. By SelfHits::note that is its point alone and an
-/// epsilon; by SelfHits::exact its own body is solved as one that the point is on, and all
-/// others from a little off it.
+/// Where a ray starts, and on what. By SelfHits::note it has a point and an epsilon. By
+/// SelfHits::exact the body that it starts on is solved with the point known to lie on it; all
+/// other bodies are solved from a ray origin offset from the surface.
 template <class Real>
 struct Start {
-    Vec3<Real> on;   ///< the point itself
-    Vec3<Real> org;  ///< from where other surfaces are looked for
+    Vec3<Real> on;   ///< the point on the surface
+    Vec3<Real> org;  ///< the offset ray origin, for other bodies
     Real t_min = epsilon<Real>;
-    int object = -1;  ///< own body; -1 for none
+    int object = -1;  ///< the body that the ray starts on; -1 for none
     Part part = Part::side;
     Side side = Side::outer;  ///< on which the ray leaves it
 };
 
-/// Where a ray that begins at `start` meets a body.
+/// The hits of a ray from `start` with one body.
 template <class Real, class Body>
 [[nodiscard]] Roots<Real> roots_from(const Body& body, const Start<Real>& start,
                                      const Vec3<Real>& D)
@@ -59,13 +58,14 @@ template <class Real, class Body>
                                        : roots_of(body, start.org, D);
 }
 
-/// Whether a ray meets its own body again before `other`, another one's hit. Near each other that
-/// is looked for from the point itself, too, as the own body is: in one place the first object is
-/// met, whatever rounding makes of either t.
+/// Whether `own`, a hit of the body that the ray starts on, comes before `other`, the hit of
+/// another body. If both are close, the other body is solved from `start.on` as well, as the own
+/// body was. If both then are in one place, the lower object number is hit, however either t was
+/// rounded.
 template <class Real>
-[[nodiscard]] bool meets_own_first(const Bodies<Real>& bodies, const Start<Real>& start,
-                                   const Vec3<Real>& D, const Hit<Real>& own,
-                                   const Hit<Real>& other)
+[[nodiscard]] bool own_hit_is_first(const Bodies<Real>& bodies, const Start<Real>& start,
+                                    const Vec3<Real>& D, const Hit<Real>& own,
+                                    const Hit<Real>& other)
 {
     const Real near = Real(0x1p-12) * own.t;
     if (!(std::abs(other.t - own.t) <= near))
@@ -86,7 +86,7 @@ template <class Real>
     return std::abs(apart) <= one_place * own.t ? own.object < other.object : apart > 0;
 }
 
-/// The nearest meeting from `start` on, as closest_intersection has it.
+/// The closest hit from `start` on, up to t_max.
 template <class Real>
 [[nodiscard]] Hit<Real> closest_from(const Bodies<Real>& bodies, const Start<Real>& start,
                                      const Vec3<Real>& D, Real t_max)
@@ -105,10 +105,10 @@ template <class Real>
     });
     if (own.object < 0 || other.object < 0)
         return own.object < 0 ? other : own;
-    return meets_own_first(bodies, start, D, own, other) ? own : other;
+    return own_hit_is_first(bodies, start, D, own, other) ? own : other;
 }
 
-/// The point of a hit: the own body was solved from the start itself.
+/// The point of a hit. The body that the ray starts on was solved from `start.on`.
 template <class Real>
 [[nodiscard]] Vec3<Real> point_of(const Hit<Real>& hit, const Start<Real>& start,
                                   const Vec3<Real>& D)
@@ -116,9 +116,11 @@ template <class Real>
     return (hit.object == start.object ? start.on : start.org) + hit.t * D;
 }
 
-/// How far off a surface at P with the outward normal N rounding can be, as the packets have it.
+/// The ray origin offset at P on a surface with the outward normal N: a bound of P's distance from
+/// the surface, as the kernels have it for double (start_roundoffs in lower/packed_scene.cpp).
 template <class Real>
-[[nodiscard]] Real lift_at(const Vec3<Real>& place, const Vec3<Real>& P, const Vec3<Real>& N)
+[[nodiscard]] Real origin_offset_at(const Vec3<Real>& place, const Vec3<Real>& P,
+                                    const Vec3<Real>& N)
 {
     constexpr Real roundoffs = 32 * (std::numeric_limits<Real>::epsilon() / 2);
     const Vec3<Real> off = P - place;
@@ -127,16 +129,16 @@ template <class Real>
                         std::abs(N.z) * (std::abs(P.z) + std::abs(off.z)));
 }
 
-/// Where a ray begins that leaves a surface at P, or one from an eye at P.
+/// The start of a ray that leaves a surface at P, or of one from an eye at P.
 template <class Real>
 [[nodiscard]] Start<Real> start_at(const World<Real>& world, const Departure<Real>& left,
                                    const Vec3<Real>& P)
 {
     if (!left || world.self_hits == SelfHits::note)
         return {P, P};
-    const Real lift = lift_at(place_of(world.bodies, left.object), P, left.outward);
+    const Real offset = origin_offset_at(place_of(world.bodies, left.object), P, left.outward);
     return {P,
-            P + (left.side == Side::outer ? lift : -lift) * left.outward,
+            P + (left.side == Side::outer ? offset : -offset) * left.outward,
             std::numeric_limits<Real>::min(),
             left.object,
             left.part,

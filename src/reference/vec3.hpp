@@ -73,7 +73,7 @@ struct Vec3 {
 template <class Real>
 using Color = Vec3<Real>;
 
-/// Whether a colour or coefficient is more than nothing in some channel.
+/// Whether a colour or coefficient is above zero in some channel.
 template <class Real>
 [[nodiscard]] constexpr bool any_positive(const Color<Real>& c)
 {
@@ -104,7 +104,7 @@ template <class Real>
     return a / length(a);
 }
 
-/// The same also where the squares overflow or vanish; nothing for a vector without a direction,
+/// As normalize(), but also right where the squares overflow or vanish. None for a vector that is
 /// zero or not finite.
 template <class Real>
 [[nodiscard]] std::optional<Vec3<Real>> unit(const Vec3<Real>& a)

@@ -13,7 +13,7 @@
 #include <stdexcept>
 #include <vector>
 
-// The scene as the notes see it: canvas, paints, lights, surfaces and materials.
+// The scene in the notes' terms: canvas, paints, lights, surfaces and materials.
 namespace packtrace::reference {
 
 template <class Real>
@@ -54,7 +54,7 @@ struct Canvas {
         return x * right + y * up + forward;
     }
 
-    /// The same through `sample` of the pixel, as Camera::pixel_sample has it.
+    /// The same through the place `sample` of the pixel, in the units of Camera::pixel_sample.
     [[nodiscard]] Vec3<Real> canvas_to_viewport(int i, int j, const Vec2& sample) const
     {
         const Real x = static_cast<Real>(sample.x) - half_width + static_cast<Real>(i);
@@ -72,7 +72,7 @@ void put_pixel(Image<Real>& image, int i, int j, const Color<Real>& color)
     pixel[2] = color.z;
 }
 
-/// An object's colour: plain, or two colours in squares along a plane's axes.
+/// An object's colour, or two colours in a checker along a plane's axes.
 template <class Real>
 struct Paint {
     Color<Real> color;
@@ -101,7 +101,7 @@ template <class Real>
     return paint;
 }
 
-/// The square of two colours that `own`, a point in the plane's own space, lies in.
+/// The colour of the checker's square that holds `own`, a point in the plane's own space.
 template <class Real>
 [[nodiscard]] Color<Real> checker_color(const Paint<Real>& paint, const Vec3<Real>& own)
 {
@@ -124,13 +124,13 @@ template <class Real>
 struct LightSource {
     LightType type = LightType::ambient;
     Color<Real> intensity;
-    Vec3<Real> vector;  ///< a point light's position, or the way to a directional light
-    Vec3<Real> unit;    ///< the way to a directional light, normalised
-    int number = 0;     ///< in Scene::lights
+    Vec3<Real> vector;  ///< a point light's position, or the direction towards a directional light
+    Vec3<Real> unit;    ///< the direction towards a directional light, normalised
+    int number = 0;     ///< index in Scene::lights
     bool casts_shadow = true;
 };
 
-/// What every note needs of a scene, converted once to the precision of the reference.
+/// What all notes need of a scene, converted once to the precision of the reference.
 template <class Real>
 struct World {
     Bodies<Real> bodies;
@@ -172,7 +172,7 @@ World<Real>::World(const Scene& scene, SelfHits rule)
     }
 }
 
-/// The shading keys of an object in the model that the scene is lit by.
+/// An object's material in the scene's illumination model.
 template <class Model>
 [[nodiscard]] const Model& model_of(const Object& object)
 {

@@ -6,20 +6,20 @@
 
 namespace packtrace::peers {
 
-/// The scene for POV-Ray 3.7. Where there are few objects, each is lit by lights of its own
-/// colour, which tints highlights as note 001 does; otherwise highlights are white.
+// Both exports throw std::runtime_error for what they cannot express: models other than scratch,
+// shadows that are not opaque, quadrics, polygons, checkers, transforms, coloured ambient light.
+
+/// The scene for POV-Ray 3.7. If there are few objects, each has lights of its own colour, so that
+/// its highlights are coloured as in note 001; otherwise highlights are white.
 [[nodiscard]] std::string pov_scene(const Scene& scene);
 
-/// The scene for Tachyon 0.99, whose space is left-handed as ours is.
+/// The scene for Tachyon 0.99, whose space is left-handed, like that of packtrace.
 [[nodiscard]] std::string tachyon_scene(const Scene& scene);
 
-// Both throw std::runtime_error for what they can't say: another illumination than scratch,
-// shadows that are not opaque, quadrics, squares, transforms, coloured ambient light.
-
-/// What both ask of a scene; the sum of its ambient lights.
+/// Checks a scene without its objects; returns the sum of its ambient lights.
 [[nodiscard]] double checked_ambient(const Scene& scene);
 
-/// The plain sphere or plane without squares that both know.
+/// Checks that an object is a sphere or a plane without transform and checker.
 void check_object(const Object& object);
 
 }  // namespace packtrace::peers

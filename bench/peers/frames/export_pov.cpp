@@ -9,7 +9,7 @@
 namespace packtrace::peers {
 namespace {
 
-/// Up to so many objects get lights of their own.
+/// In scenes of up to this many objects, each object has its own lights.
 constexpr std::size_t few = 16;
 
 std::string vector(const Vec3& v)
@@ -20,17 +20,17 @@ std::string vector(const Vec3& v)
 std::string camera(const Scene& scene)
 {
     const CameraBasis basis = camera_basis(scene.camera, scene.width, scene.height);
-    // The basis goes by pixels, POV-Ray's vectors by the whole picture.
+    // The basis is for one pixel, POV-Ray's vectors are for the whole picture.
     return "camera { perspective location " + vector(basis.origin) + " right " +
            vector(basis.right * static_cast<double>(scene.width)) + " up " +
            vector(basis.up * static_cast<double>(scene.height)) + " direction " +
            vector(basis.forward) + " }\n";
 }
 
-/// All lights but the ambient ones, as seen by what has this colour.
+/// All lights but the ambient ones, multiplied by an object's colour.
 std::string lights(const Scene& scene, const Rgb& color)
 {
-    // Far enough to be parallel at any distance of our scenes.
+    // Far enough for the light to be parallel in all scenes here.
     constexpr double far = 1e7;
     std::string text;
     for (const Light& light : scene.lights) {
@@ -52,13 +52,13 @@ std::string surface(const Surface& surface)
     return "plane { " + vector(plane.normal) + ", " + number(glm::dot(plane.normal, plane.point));
 }
 
-/// Note 001's: local light times 1 - r, reflected light times r.
+/// As in note 001: local light times 1 - r, reflected light times r.
 std::string texture(const Material& material, double ambient, const Rgb& pigment)
 {
     const auto& scratch = std::get<ScratchMaterial>(material.model);
     const double local = 1.0 - scratch.reflective;
     std::string text = "texture { pigment { color rgb " + vector(pigment) + " } finish { ";
-    // Under white pigment the colour is in the lights, so ambient light has to bring it along.
+    // With a white pigment the colour is in the lights, so ambient light must have it, too.
     text += "ambient rgb " + vector(ambient * local * material.color / pigment);
     text += " diffuse " + number(local);
     if (scratch.specular >= 0.0)

@@ -16,7 +16,7 @@ std::string vector(const Vec3& v)
 std::string camera(const Scene& scene)
 {
     const CameraBasis basis = camera_basis(scene.camera, scene.width, scene.height);
-    // Tachyon's picture is 1 / zoom high at distance 1.
+    // Tachyon's picture has the height 1 / zoom at distance 1.
     const double zoom =
         glm::length(basis.forward) / (glm::length(basis.up) * static_cast<double>(scene.height));
     return "CAMERA\n  ZOOM " + number(zoom) + "\n  ASPECTRATIO 1\n  ANTIALIASING 0\n  RAYDEPTH " +
@@ -39,7 +39,8 @@ std::string lights(const Scene& scene)
     return text;
 }
 
-/// Note 001's: local light times 1 - r, reflected light times r, highlights in the colour.
+/// As in note 001: local light times 1 - r, reflected light times r, highlights in the object's
+/// colour.
 std::string texture(const Material& material, double ambient)
 {
     const auto& scratch = std::get<ScratchMaterial>(material.model);

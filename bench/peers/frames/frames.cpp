@@ -1,4 +1,4 @@
-// packtrace_frames: writes a scene for another tracer, or times packtrace's frames of it.
+// packtrace_frames: writes a scene for another tracer, or times packtrace's frames of a scene.
 #include "context.hpp"
 #include "core/atomic_file.hpp"
 #include "core/seconds_since.hpp"
@@ -39,7 +39,7 @@ struct RenderArguments {
     int size = 0;
 };
 
-/// Prints seconds of reading, of preparing, and of each frame up to its float picture.
+/// Prints the seconds of reading, of preparing, and of each frame (a float picture).
 void render_frames(const RenderArguments& arguments)
 {
     nlohmann::ordered_json report;
@@ -86,7 +86,8 @@ int main(int argc, char** argv)
     auto& to = program.command("export", "Write a scene for another tracer",
                                [&] { export_scene(exported.scene, exported.output); });
     to.text("SCENE", exported.scene, "Scene file");
-    to.text("-o,--output", exported.output, "A .pov or .dat file", true);
+    to.text("-o,--output", exported.output, "A .pov or .dat file",
+            packtrace::bench::Need::required);
 
     RenderArguments rendered;
     auto& render =

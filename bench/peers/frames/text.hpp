@@ -7,7 +7,7 @@
 
 namespace packtrace::peers {
 
-/// The shortest form that reads back as the same double.
+/// The shortest text that is read back as the same double.
 [[nodiscard]] inline std::string number(double value)
 {
     char buffer[32];

@@ -5,10 +5,11 @@
 namespace packtrace {
 namespace {
 
-// Short frames are repeated until they take this share of the reference's time.
+// Short frames are repeated until they take this share of the reference's time, which is enough for
+// the clock.
 constexpr double least_share = 0.25;
 
-// Seconds of one frame, the mean of as many as take `least` seconds.
+// Seconds of one frame: the mean of as many frames as take `least` seconds.
 double mean_seconds(const Subject& subject, double least)
 {
     double sum = 0.0;
@@ -29,7 +30,7 @@ std::vector<Variant> variants_of(const ReportScene& scene, const std::vector<std
     return variants;
 }
 
-// The name without its one thread.
+// The name without ", 1 thread".
 std::string line_name(const ReportScene& scene, const Variant& variant)
 {
     return scene.name + ", " + variant.name.substr(0, variant.name.find(','));
@@ -39,19 +40,19 @@ std::string line_name(const ReportScene& scene, const Variant& variant)
 
 SceneBench::SceneBench(const ReportScene& scene, const std::vector<std::string>& isas)
 {
-    // The table begins with the reference in single precision.
+    // The first variant is the reference in single precision.
     for (const Variant& variant : variants_of(scene, isas)) {
         BenchLine& line = subjects_.empty() ? reference_ : lines_.emplace_back();
         line.name = line_name(scene, variant);
         subjects_.push_back(subject_of(scene.scene, variant));
-        // A first frame pays for the memory that later ones reuse.
+        // The first frame allocates memory that later ones reuse.
         subjects_.back().render();
     }
 }
 
 void SceneBench::measure(int repetitions, const std::function<bool(const BenchLine&)>& wanted)
 {
-    // Asked before any is measured: whoever asked after each time would stop at a lucky one.
+    // `wanted` is asked before all measurements. Asked after each, it would stop at a lucky one.
     std::vector<std::size_t> chosen;
     for (std::size_t i = 0; i < lines_.size(); ++i)
         if (wanted(lines_[i]))

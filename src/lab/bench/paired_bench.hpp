@@ -10,9 +10,9 @@
 
 namespace packtrace {
 
-/// A variant's time over that of the scalar reference in single precision, both on one thread
-/// and taken right after each other, so that a slow machine or moment falls on both. Times are
-/// the processor's for this program: what others take from it is not in them.
+/// A variant's time over that of the scalar reference in single precision, both on one thread and
+/// measured right after each other, so that a slow machine or moment affects both. Times are
+/// processor seconds of this program, without those of other programs.
 struct BenchLine {
     std::string name;             ///< "four_spheres, packets avx2 single"
     std::vector<double> ratios;   ///< by repetition
@@ -24,22 +24,21 @@ struct BenchLine {
     }
 };
 
-/// The lines of a scene, to be measured as often as wanted: every instruction set in both
-/// precisions, and the reference in double.
+/// The lines of a scene: every instruction set in both precisions, and the reference in double.
 class SceneBench {
 public:
-    /// On these instruction sets; all this machine runs where none are given.
+    /// On these instruction sets; for an empty list, on all that this machine has.
     SceneBench(const ReportScene& scene, const std::vector<std::string>& isas);
 
-    /// Measures the wanted lines in turns, so that a busy spell falls on all of them. What there
-    /// is of earlier calls stays.
+    /// Measures the wanted lines by turns, so that a busy moment affects all of them. Adds to the
+    /// measurements of earlier calls.
     void measure(int repetitions, const std::function<bool(const BenchLine&)>& wanted);
 
     [[nodiscard]] const std::vector<BenchLine>& lines() const
     {
         return lines_;
     }
-    /// What all lines are compared to.
+    /// The line that all others are compared with.
     [[nodiscard]] const BenchLine& reference() const
     {
         return reference_;

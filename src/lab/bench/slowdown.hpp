@@ -6,14 +6,14 @@
 #include <optional>
 #include <vector>
 
-// Whether something takes longer than it did: a verdict on samples, whoever measured them.
+// Whether something takes longer than before, by samples of its time.
 namespace packtrace {
 
-/// How much longer one thing takes than another, as a share of what the other takes: 0.1 is a
-/// tenth longer.
+/// How much longer one thing takes than another, as a share of the other's time: 0.1 is a tenth
+/// longer.
 struct Slowdown {
     double estimate = 0.0;
-    /// Holds the true one with `confidence`. None for too few samples.
+    /// Holds the true slowdown with `confidence`. None for too few samples.
     std::optional<Interval> interval;
 };
 
@@ -34,8 +34,8 @@ struct Slowdown {
     return result;
 }
 
-/// now[i] and before[i] were measured right after each other: by the median of the logarithms of
-/// their ratios.
+/// For samples now[i] and before[i] that were measured right after each other: by the median of the
+/// logarithms of their ratios.
 [[nodiscard]] inline Slowdown paired_slowdown(const std::vector<double>& now,
                                               const std::vector<double>& before)
 {
@@ -43,8 +43,8 @@ struct Slowdown {
     return slowdown_of_logarithms(median_of(ratios), median_interval(ratios));
 }
 
-/// Measured apart: by the shift between their logarithms. What the machine did differently in the
-/// meantime is not in the interval.
+/// For samples that were measured at different times: by the shift between their logarithms. The
+/// interval does not include changes of the machine in the meantime.
 [[nodiscard]] inline Slowdown unpaired_slowdown(const std::vector<double>& now,
                                                 const std::vector<double>& before)
 {
@@ -54,9 +54,9 @@ struct Slowdown {
 }
 
 enum class Verdict {
-    not_slower,  ///< than the limit allows: all of the interval lies within it
-    slower,      ///< all of the interval lies beyond the limit
-    cannot_tell  ///< the interval has the limit in it, or there is none
+    not_slower,  ///< the whole interval is within the limit
+    slower,      ///< the whole interval is beyond the limit
+    cannot_tell  ///< the limit is inside the interval, or there is no interval
 };
 
 [[nodiscard]] inline Verdict verdict_of(const Slowdown& slowdown, double limit)

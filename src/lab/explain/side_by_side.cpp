@@ -1,4 +1,5 @@
 #include "lab/harness/names.hpp"
+#include "lab/harness/ray_trees.hpp"
 #include <packtrace/explain.hpp>
 
 #include <algorithm>
@@ -28,7 +29,7 @@ double length(const Numbers& v)
     return std::sqrt(sum);
 }
 
-// Equal infinities are close, NaN is close to nothing.
+// Equal infinities are close; NaN is close to nothing.
 bool close(const Numbers& a, const Numbers& b, double tolerance)
 {
     if (a == b)
@@ -45,7 +46,7 @@ bool brings(const RayNode* ray)
     return ray != nullptr && ray->brought != Rgb(0.0);
 }
 
-// The rows of a pair of rays, either of which may be missing.
+// The rows of two ray trees. A ray may be missing in one of them.
 class Rows {
 public:
     explicit Rows(double tolerance) : tolerance_(tolerance)
@@ -99,7 +100,7 @@ private:
         add("local", [](const RayNode& ray) { return numbers(ray.local); });
     }
 
-    // A share that one tree had no need to know is no difference.
+    // A share that only one tree computed is no difference.
     void add_light(int light)
     {
         const std::string name = "light " + std::to_string(light + 1);

@@ -4,7 +4,7 @@
 
 namespace packtrace {
 
-/// What tables and JSON call a kind of ray.
+/// The name of a kind of ray in tables and JSON.
 [[nodiscard]] inline const char* name_of(RayKind kind)
 {
     switch (kind) {

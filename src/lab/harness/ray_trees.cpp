@@ -16,7 +16,7 @@
 namespace packtrace {
 namespace {
 
-/// Of a tree that may be changed, or not.
+/// `Node` is RayNode or const RayNode.
 template <class Node>
 Node* find_child(Node& parent, RayKind kind)
 {
@@ -50,7 +50,7 @@ Vec3 vec3(const Real (&v)[3])
     return {v[0], v[1], v[2]};
 }
 
-// The child of that kind, which comes into being where there is none.
+// The child of a kind; added if there is none.
 RayNode& child_of(RayNode& parent, RayKind kind)
 {
     if (RayNode* const child = find_child(parent, kind))
@@ -60,16 +60,15 @@ RayNode& child_of(RayNode& parent, RayKind kind)
     return child;
 }
 
-/// A ray tree grown from what the packet kernels report of one pixel.
+/// Builds a ray tree from the events of packet kernels about one pixel.
 template <class Real>
 class PacketTree {
 public:
-    /// `scene` is the one that is traced.
     explicit PacketTree(const Scene& scene);
     PacketTree(const PacketTree&) = delete;
     PacketTree& operator=(const PacketTree&) = delete;
 
-    /// Reports come to this object, which must outlive the probe's use.
+    /// A probe that records into this object, which must outlive it.
     [[nodiscard]] abi::Probe<Real> probe(int pixel);
 
     [[nodiscard]] const RayNode& root() const
@@ -84,7 +83,7 @@ private:
     void add_hit(const abi::ProbedHit<Real>& hit);
 
     RayNode root_;
-    std::vector<int> light_numbers_;  // in Scene::lights, by the kernels' number
+    std::vector<int> light_numbers_;  // index in Scene::lights, by the kernels' light number
 };
 
 template <class Real>
@@ -111,7 +110,7 @@ abi::Probe<Real> PacketTree<Real>::probe(int pixel)
     return probe;
 }
 
-// Down from the root, by the bits below the leading one.
+// The bits of a path below its leading one are the way down from the root.
 template <class Real>
 RayNode& PacketTree<Real>::at(abi::PathId path)
 {
@@ -154,7 +153,7 @@ void PacketTree<Real>::add_hit(const abi::ProbedHit<Real>& hit)
     node.brought = vec3(hit.at_limit);
 }
 
-// Column and row in turns, from the lowest bit.
+// The bits of column and row by turns, from the lowest.
 int z_order(int column, int row)
 {
     int number = 0;
@@ -177,7 +176,8 @@ public:
     {
     }
 
-    // The pixel's whole tile is rendered, in the packets it always shares with its neighbours.
+    // Renders the pixel's whole tile, so that it shares packets with its neighbours as in a
+    // picture.
     [[nodiscard]] RayNode tree(int x, int y)
     {
         PacketTree<Real> tree(scene_);
@@ -206,7 +206,7 @@ private:
     AlignedArray<std::byte> scratch_;
 };
 
-// The reference and the tree it grows.
+// The reference and the tree that it builds.
 template <class Real>
 struct ReferenceTrees {
     reference::TreeRecorder::Growth growth;

@@ -9,29 +9,29 @@
 
 namespace packtrace {
 
-/// The ray tree of the pixel in column x and row y of one scene, made ready once to be asked often.
-/// Not for several threads at once.
+/// Gives the ray tree of the pixel in column x and row y of one scene, which is prepared once. For
+/// one thread at a time.
 using TreeOfPixel = std::function<RayNode(int x, int y)>;
 
-/// As packets trace it, with kernels that have a probe, of the scene as `lowered` says it.
+/// Ray trees by packets, of kernels with a probe; `lowered` is the scene that they trace.
 template <class Real>
 [[nodiscard]] TreeOfPixel packet_trees(const Scene& scene, const LoweredScene& lowered,
                                        const abi::KernelTable& table);
 
-/// As the scalar reference traces it in `Real`, float or double.
+/// Ray trees by the scalar reference in `Real`, float or double.
 template <class Real>
 [[nodiscard]] TreeOfPixel reference_trees(const Scene& scene,
                                           SelfHits self_hits = default_self_hits);
 
-/// The trees of the pixel's samples at `places`, as the reference traces them in double.
+/// Gives the trees of a pixel's samples at `places`, by the reference in double.
 using TreesOfPixel = std::function<std::vector<RayNode>(int x, int y)>;
 [[nodiscard]] TreesOfPixel reference_sample_trees(const Scene& scene,
                                                   const std::vector<Vec2>& places);
 
-/// A ray's child of that kind; null where there is none, or no ray.
+/// A ray's child of a kind; null if there is none, or if `parent` is null.
 [[nodiscard]] const RayNode* child_of(const RayNode* parent, RayKind kind);
 
-/// What the light of that number does where a ray hits; null where it is not known, or no ray.
+/// The share of light number `light` at a ray's hit; null if it is not known, or if `ray` is null.
 [[nodiscard]] const LightShare* light_of(const RayNode* ray, int light);
 
 }  // namespace packtrace

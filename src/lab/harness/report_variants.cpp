@@ -39,8 +39,8 @@ Variant packets(const IsaInfo& isa, Precision precision, const Scene& scene)
     return variant;
 }
 
-// Packets of singles beside the usual ones; `how` names what is other with them.
-Variant beside(Variant variant, const std::string& how, const ReportOptions& options)
+// A variant that differs from the usual packets of singles in one thing, which `how` names.
+Variant differing(Variant variant, const std::string& how, const ReportOptions& options)
 {
     variant.study = Study::arithmetic;
     variant.threads = options.threads.front();
@@ -49,26 +49,26 @@ Variant beside(Variant variant, const std::string& how, const ReportOptions& opt
     return variant;
 }
 
-// In another accuracy mode than the usual one.
+// With another accuracy.
 Variant in_mode(const Variant& usual, Accuracy accuracy, const ReportOptions& options)
 {
-    Variant variant = beside(usual, std::string(language::word_of(accuracy)), options);
+    Variant variant = differing(usual, std::string(language::word_of(accuracy)), options);
     variant.accuracy = accuracy;
     return variant;
 }
 
-// With rays that start a fixed 0.001 along their way, as the notes have it.
+// With secondary rays from t = 0.001 on, as in the notes.
 Variant by_note(const Variant& usual, const ReportOptions& options)
 {
-    Variant variant = beside(usual, "from 0.001", options);
+    Variant variant = differing(usual, "from 0.001", options);
     variant.self_hits = SelfHits::note;
     return variant;
 }
 
-// By the kernel that knows everything.
+// With the general kernel.
 Variant by_general(const Variant& usual, const ReportOptions& options)
 {
-    Variant variant = beside(usual, "general kernel", options);
+    Variant variant = differing(usual, "general kernel", options);
     variant.general = true;
     return variant;
 }
@@ -96,6 +96,42 @@ void add_arithmetic(std::vector<Variant>& variants, Variant variant, const Repor
     }
 }
 
+void add_depths(std::vector<Variant>& variants, Variant variant, const Scene& scene)
+{
+    variant.study = Study::depth;
+    for (int depth = 0; depth <= scene.max_depth; ++depth) {
+        variant.depth = depth;
+        variant.name = "depth " + std::to_string(depth);
+        variants.push_back(variant);
+    }
+}
+
+void add_weights(std::vector<Variant>& variants, Variant variant, const ReportOptions& options)
+{
+    variant.study = Study::weight;
+    for (const double weight : options.min_weights) {
+        variant.min_weight = weight;
+        variant.name = weight == 0.0 ? "all weights" : "weights from " + brief(weight, 3);
+        variants.push_back(variant);
+    }
+}
+
+void add_samplings(std::vector<Variant>& variants, Variant variant, const ReportOptions& options)
+{
+    variant.study = Study::sampling;
+    for (const int samples : options.samples) {
+        variant.samples = samples;
+        variant.name = "spp " + std::to_string(samples);
+        variants.push_back(variant);
+    }
+    for (const auto& [samples, contrast] : options.adaptive) {
+        variant.samples = samples;
+        variant.adaptive = contrast;
+        variant.name = "adaptive " + std::to_string(samples) + " at " + brief(contrast, 6);
+        variants.push_back(variant);
+    }
+}
+
 }  // namespace
 
 std::vector<Variant> report_variants(const Scene& scene, const ReportOptions& options)
@@ -109,35 +145,13 @@ std::vector<Variant> report_variants(const Scene& scene, const ReportOptions& op
         for (const IsaInfo& isa : isas)
             add_arithmetic(variants, packets(isa, precision, scene), options);
     }
-    Variant widest = packets(isas.back(), Precision::single, scene);
+    const Variant widest = packets(isas.back(), Precision::single, scene);
     variants.push_back(in_mode(widest, Accuracy::fast, options));
     variants.push_back(by_note(widest, options));
     variants.push_back(by_general(widest, options));
-    widest.study = Study::depth;
-    for (int depth = 0; depth <= scene.max_depth; ++depth) {
-        widest.depth = depth;
-        widest.name = "depth " + std::to_string(depth);
-        variants.push_back(widest);
-    }
-    widest.study = Study::weight;
-    for (const double weight : options.min_weights) {
-        widest.min_weight = weight;
-        widest.name = weight == 0.0 ? "all weights" : "weights from " + brief(weight, 3);
-        variants.push_back(widest);
-    }
-    widest.min_weight = scene.min_weight;
-    widest.study = Study::sampling;
-    for (const int samples : options.samples) {
-        widest.samples = samples;
-        widest.name = "spp " + std::to_string(samples);
-        variants.push_back(widest);
-    }
-    for (const auto& [samples, contrast] : options.adaptive) {
-        widest.samples = samples;
-        widest.adaptive = contrast;
-        widest.name = "adaptive " + std::to_string(samples) + " at " + brief(contrast, 6);
-        variants.push_back(widest);
-    }
+    add_depths(variants, widest, scene);
+    add_weights(variants, widest, options);
+    add_samplings(variants, widest, options);
     return variants;
 }
 
@@ -157,7 +171,7 @@ RenderOptions options_of(const Variant& variant)
     return options;
 }
 
-// One sample a pixel is the scene's own, but where samples are studied it is the centre.
+// One sample per pixel is the scene's own; in the study of sampling it is the pixel's centre.
 Scene scene_of(Scene scene, const Variant& variant)
 {
     scene.max_depth = variant.depth;

@@ -8,26 +8,26 @@
 #include <cstdint>
 #include <functional>
 
-// The variants of a scene that are compared (the table, report_variants(), is public), made ready.
+// The variants that are compared, prepared for a scene. Their table, report_variants(), is public.
 namespace packtrace {
 
-/// A variant ready to run on one scene.
+/// A variant prepared for one scene.
 struct Subject {
     Variant variant;
-    /// Renders a frame; what is made ready once for many frames is ready.
+    /// Renders a frame. All that many frames share has been prepared.
     std::function<void()> render;
     std::function<Image<double>()> picture;  ///< of the last frame
     std::function<std::uint64_t()> rays;     ///< of the last frame
     std::function<CutRays()> cut;            ///< of the last frame
-    /// For a pixel of one sample; empty where there is none.
+    /// Ray trees, for variants of one sample per pixel; may be empty.
     TreeOfPixel tree;
 };
 
-/// Makes a variant of the table ready.
+/// Prepares a variant of the table.
 [[nodiscard]] Subject subject_of(const Scene& scene, const Variant& variant);
 
-/// Packets on a scene lowered already, with the kernels of any table. `Real` is that of the
-/// variant's precision.
+/// Prepares packets on a lowered scene, with the kernels of any table. `Real` is the variant's
+/// precision.
 template <class Real>
 [[nodiscard]] Subject packet_subject(const Scene& scene, const LoweredScene& lowered,
                                      const abi::KernelTable& table, const Variant& variant);

@@ -7,11 +7,11 @@
 namespace packtrace {
 namespace {
 
-// Of the normal distribution, what lies within so many standard normal_deviations has `confidence`.
+// This many standard deviations around the mean of a normal distribution hold `confidence` of it.
 constexpr double normal_deviations = 2.5758;
 static_assert(confidence == 0.99);
 
-// Between the k-th smallest and the k-th largest, counted from 1; none for k = 0.
+// From the k-th smallest to the k-th largest, counted from 1; none for k = 0.
 std::optional<Interval> between_ranks(std::vector<double> values, std::size_t k)
 {
     if (k == 0)
@@ -48,8 +48,8 @@ std::vector<double> differences(const std::vector<double>& a, const std::vector<
     return result;
 }
 
-// A value falls below the median as often as a coin shows heads: k is the largest with at most
-// (1 - confidence) / 2 for fewer than k heads.
+// A value is below the median with probability 1/2, like heads of a coin: k is the largest number
+// for which the probability of fewer than k heads is at most (1 - confidence) / 2.
 std::optional<Interval> median_interval(std::vector<double> values)
 {
     const std::size_t count = values.size();

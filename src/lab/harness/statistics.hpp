@@ -5,8 +5,8 @@
 
 namespace packtrace {
 
-/// The value below which the given share of the values lies, between neighbours by a straight
-/// line; `share` in [0, 1]. `values` has at least one element, in any order.
+/// The value below which a share of the values lies, interpolated linearly between neighbours;
+/// `share` in [0, 1]. `values` has at least one element, in any order.
 [[nodiscard]] double quantile(std::vector<double> values, double share);
 
 [[nodiscard]] inline double median_of(const std::vector<double>& values)
@@ -45,22 +45,22 @@ struct Interval {
     double high = 0.0;
 };
 
-/// How often intervals hold what they are for.
+/// The probability that an interval holds the true value.
 inline constexpr double confidence = 0.99;
 
-/// Where the median of that lies which `values` are samples of, whatever its distribution: between
-/// the k-th smallest and the k-th largest value. Thompson, On Confidence Ranges for the Median and
-/// Other Expectation Distributions for Populations of Unknown Distribution Form, 1936. None for
-/// fewer than 8 values.
+/// A confidence interval of the median of any distribution, by samples of it: from the k-th
+/// smallest to the k-th largest value. Thompson, On Confidence Ranges for the Median and Other
+/// Expectation Distributions for Populations of Unknown Distribution Form, 1936. None for fewer
+/// than 8 values.
 [[nodiscard]] std::optional<Interval> median_interval(std::vector<double> values);
 
-/// The median of all a[i] - b[k]. Hodges, Lehmann, Estimates of Location Based on Rank Tests, 1963.
+/// The median of all a[i] - b[j]. Hodges, Lehmann, Estimates of Location Based on Rank Tests, 1963.
 [[nodiscard]] double shift(const std::vector<double>& a, const std::vector<double>& b);
 
-/// Where the shift of the distribution of `a` against that of `b` lies: between the k-th smallest
-/// and the k-th largest a[i] - b[k]. Lehmann, Nonparametric Confidence Intervals for a Shift
-/// Parameter, 1963; k by the normal approximation, which makes few values' intervals wider. None
-/// for fewer than about 6 values each.
+/// A confidence interval of the shift from the distribution of `b` to that of `a`: from the k-th
+/// smallest to the k-th largest a[i] - b[j]. Lehmann, Nonparametric Confidence Intervals for a
+/// Shift Parameter, 1963; k by the normal approximation, which makes intervals of few values wider.
+/// None for fewer than about 6 values each.
 [[nodiscard]] std::optional<Interval> shift_interval(const std::vector<double>& a,
                                                      const std::vector<double>& b);
 

@@ -6,9 +6,9 @@
 
 namespace packtrace {
 
-/// Times work that runs on some threads from its making on. On one thread these are processor
-/// seconds of this program: what other programs take meanwhile is not in them. On several they
-/// are those of the clock.
+/// Times work on one or several threads, from its construction on. On one thread it counts
+/// processor seconds of this program, without those of other programs; on several, wall-clock
+/// seconds.
 class Stopwatch {
 public:
     explicit Stopwatch(int threads) : one_thread_(threads == 1), start_(now())
@@ -32,7 +32,7 @@ private:
     double start_;
 };
 
-/// Seconds that `work` takes on some threads.
+/// Seconds that `work` takes on `threads` threads.
 template <class Work>
 [[nodiscard]] double seconds_of(int threads, const Work& work)
 {
@@ -41,8 +41,8 @@ template <class Work>
     return watch.seconds();
 }
 
-/// What each of `count` works takes, by repetition: `time(i)` does work i once and gives its
-/// seconds. They take turns, so that a busy moment of the machine falls on all of them.
+/// The seconds of each of `count` works, by repetition: `time(i)` does work i once and returns its
+/// seconds. Works take turns, so that a busy moment of the machine affects all of them.
 template <class Time>
 [[nodiscard]] std::vector<std::vector<double>> time_in_turns(std::size_t count, int repetitions,
                                                              const Time& time)

@@ -7,8 +7,8 @@
 namespace packtrace {
 namespace {
 
-// Of a frame that times may vary by, and of a whole that the sum of its parts may be off by. Idle
-// machines keep to a third of it.
+// The share of a frame by which times may vary, and of a whole by which the sum of its parts may
+// differ. On an idle machine both are below a third of it.
 constexpr double busy_tolerance = 0.1;
 
 std::string percent_text(double share)
@@ -21,7 +21,7 @@ bool differs_from_whole(double part, double whole)
     return !(std::abs(part / whole - 1.0) <= busy_tolerance);
 }
 
-// Generations and what-if rows whose differences vary too much.
+// The names of generations and what-if rows whose differences vary too much.
 std::string doubtful_rows(const Profile& profile)
 {
     std::vector<std::string> names;

@@ -31,7 +31,7 @@ RenderOptions checked(const RenderOptions& options)
     return checked_options(options);
 }
 
-/// What a tile's kernels record.
+/// What the kernels record about one tile.
 struct TileRecord {
     abi::WorkCounts counts;
     std::array<abi::PixelRays, abi::tile_pixels> pixels;
@@ -45,7 +45,7 @@ struct TileRecord {
     }
 };
 
-/// Tiles write to pixels of their own.
+/// Threads may call it at once: tiles have no pixels in common.
 void take_pixels(const TileRecord& record, const Region& tile, Certainty& certainty)
 {
     for_each_pixel(tile, [&](int number, int x, int y) {

@@ -9,7 +9,7 @@
 namespace packtrace {
 namespace {
 
-// Nothing is recorded.
+// Records nothing.
 constexpr auto unobserved = [](int) { return nullptr; };
 
 template <class Real>
@@ -18,14 +18,14 @@ void time_pieces(ObservedFrame<Real>& frame, PieceTimes& times)
     frame.render(unobserved, [&](int piece, double seconds) { times.add(piece, seconds); });
 }
 
-// Plain frames, observable ones, and those with the clock, in turns.
+// Times plain frames, frames of observing kernels, and frames with the clock, by turns.
 template <class Real>
 void clock_stages(ObservedFrame<Real>& plain, ObservedFrame<Real>& observed,
                   const ProfileOptions& options, StageTimes& stages, KernelProfile& profile)
 {
     const int pieces = observed.pieces();
     PieceTimes plain_times(pieces), observed_times(pieces), clocked_times(pieces);
-    // The clock's rate is told by a piece that is clocked twice.
+    // A piece must be clocked twice to find the clock's rate.
     for (int turn = 0; turn < std::max(2, options.repetitions); ++turn) {
         time_pieces(plain, plain_times);
         time_pieces(observed, observed_times);
@@ -40,7 +40,7 @@ void clock_stages(ObservedFrame<Real>& plain, ObservedFrame<Real>& observed,
     profile.clocked = clocked_times.frame();
 }
 
-// One frame that clocks the steps of all pieces, for their shares alone.
+// Renders one frame that clocks the steps of all pieces. Only their shares are used.
 template <class Real>
 std::vector<KernelStage> divide_stages(ObservedFrame<Real>& observed, const StageTimes& stages,
                                        int generations)

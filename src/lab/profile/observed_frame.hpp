@@ -11,17 +11,18 @@
 #include <chrono>
 #include <vector>
 
-// A frame traced piece by piece, observed by its kernels or not, and the times of the pieces.
+// Frames that are traced piece by piece, with kernels that observe themselves or without, and the
+// times of the pieces.
 namespace packtrace {
 
-/// The same scene for kernels that observe their stages.
+/// The scene with features for which the observing kernels are chosen.
 [[nodiscard]] LoweredScene observable(LoweredScene lowered);
 
-/// Frames on one thread, piece by piece, any of which may be observed.
+/// Renders frames on one thread, piece by piece.
 template <class Real>
 class ObservedFrame {
 public:
-    /// Kernels are those that `lowered` asks for; only those of an observable() scene observe.
+    /// Only kernels of an observable() scene observe.
     ObservedFrame(const Scene& scene, const LoweredScene& lowered, const abi::KernelTable& table,
                   const RenderOptions& options)
         : options_(options),
@@ -32,14 +33,14 @@ public:
     {
     }
 
-    /// Blocks of tiles, and with adaptive sampling the tiles that are refined then.
+    /// The number of pieces: blocks of tiles, and with adaptive sampling also tiles to refine.
     [[nodiscard]] int pieces() const
     {
         return blocks_.count() + (options_.adaptive ? TileGrid(picture_).count() : 0);
     }
 
-    /// `before(piece)` returns what to record into, or null; `after(piece, seconds)` is told what
-    /// it took.
+    /// `before(piece)` returns what to record into, or null; `after(piece, seconds)` receives the
+    /// time of the piece.
     template <class Before, class After>
     FrameCounts render(const Before& before, const After& after)
     {
@@ -84,8 +85,8 @@ private:
     TileGrid blocks_;
 };
 
-/// Times of a frame's pieces. The frame is the sum of each one's median: what a busy machine takes
-/// from a piece now and then is not in it.
+/// Times of a frame's pieces. The time of the frame is the sum of their medians, so that a busy
+/// moment of the machine does not count.
 class PieceTimes {
 public:
     explicit PieceTimes(int pieces) : seconds_(static_cast<std::size_t>(pieces))
@@ -97,7 +98,7 @@ public:
         seconds_[static_cast<std::size_t>(piece)].push_back(seconds);
     }
 
-    /// Every piece was added at least once.
+    /// Each piece must have been added at least once.
     [[nodiscard]] double frame() const
     {
         double sum = 0.0;

@@ -19,7 +19,7 @@ FrameCounts operator-(const FrameCounts& a, const FrameCounts& b)
             a.refracted - b.refracted, a.unsure - b.unsure};
 }
 
-// Times steps that follow each other without a gap.
+// Times stages that follow each other.
 class StageClock {
 public:
     explicit StageClock(int threads) : threads_(threads)
@@ -40,7 +40,7 @@ private:
     int threads_;
 };
 
-// The whole way once; the steps' medians come from several.
+// Times the whole way from text to PNG once; `whole` receives its seconds.
 template <class Real>
 std::vector<ProfileStage> stages_once(const std::string& text, const Scene& scene,
                                       const ProfileOptions& options, int lanes, double& whole)
@@ -55,7 +55,7 @@ std::vector<ProfileStage> stages_once(const std::string& text, const Scene& scen
     read.camera = scene.camera;
     const LoweredScene lowered =
         clock.time("lowering", [&] { return lower_for<Real>(read, render_options(options)); });
-    // A renderer packs for itself; this is what it takes alone.
+    // The renderer packs the scene itself. Here packing is timed alone.
     const Stopwatch packing(options.threads);
     {
         const PackedScene<Real> scene_in_arrays(
@@ -93,7 +93,8 @@ void measure_stages(const std::string& text, const Scene& scene, const ProfileOp
     result.whole = median_of(wholes);
 }
 
-// A generation is what the frame that ends after it has over the one that ends before.
+// A generation is the difference of two frames: one that ends after it, and one that ends before
+// it.
 void add_generations(const std::vector<ProfileRun>& runs, int max_depth, Profile& result)
 {
     const auto run_to = [&](int depth) -> const ProfileRun& {
@@ -131,7 +132,7 @@ Profile profile(const std::string& text, const Scene& scene, const ProfileOption
     result.lanes = sizeof(Real) == sizeof(float) ? isa.lanes_single : isa.lanes_double;
     result.threads = options.threads;
 
-    // Before anything warms the process.
+    // First, while the process is cold.
     result.first_frame = first_frame_steps<Real>(scene, options);
     std::vector<ProfileRun> runs = profile_runs<Real>(scene, options);
     take_times(runs, options);

@@ -15,37 +15,38 @@ namespace packtrace {
 // timed_frames.cpp
 
 /// Starts the threads and renders three frames: the first, one into other memory, and one into the
-/// same. Only the first call of a process finds it cold, if nothing was rendered before.
+/// same memory. They show a cold start only in the first call of a process that has rendered
+/// nothing.
 template <class Real>
 [[nodiscard]] std::vector<FirstFrameStep> first_frame_steps(const Scene& scene,
                                                             const ProfileOptions& options);
 
-/// A frame to be timed against others.
+/// A variant of the frame to be timed.
 struct ProfileRun {
     std::string name;
     std::function<FrameCounts()> render;
-    bool does_more = false;            ///< than the frame
+    bool does_more = false;            ///< than the frame; others do less
     FrameCounts rays = {};             ///< of the last frame
     std::vector<double> seconds = {};  ///< by repetition
 };
 
-/// What of two runs in turns one takes more than the other, of which it does a part.
+/// How much longer a run takes than another one that does a part of its work.
 struct TimeDifference {
-    double seconds = 0.0;  ///< the median, 0 where it is negative
-    double spread = 0.0;   ///< seconds; the middle half
+    double seconds = 0.0;  ///< the median; 0 if it is negative
+    double spread = 0.0;   ///< seconds; width of the middle half
 };
 
 [[nodiscard]] TimeDifference time_difference(const std::vector<double>& whole,
                                              const std::vector<double>& part);
 
-/// Renders all in turns, once more than asked: first frames pay for memory.
+/// Times all runs by turns. A first turn does not count, because first frames allocate memory.
 void take_times(std::vector<ProfileRun>& runs, const ProfileOptions& options);
 
-/// How many of the runs behind the first end at a depth that is not the scene's, each one deeper
-/// than the one before. With adaptive sampling they would refine other pixels.
+/// How many of profile_runs(), after the first, end at a smaller depth than the scene's, from depth
+/// 0 on. None with adaptive sampling, where they would refine other pixels.
 [[nodiscard]] int generations_apart(const Scene& scene, const ProfileOptions& options);
 
-/// The frame, then it ended after each depth but the last, then without one thing each. Names
+/// The frame; the frame with each smaller depth; and the frame without one thing each. Their names
 /// are "frame", "depth 0" …, "without shadows" ….
 template <class Real>
 [[nodiscard]] std::vector<ProfileRun> profile_runs(const Scene& scene,
@@ -53,22 +54,22 @@ template <class Real>
 
 // kernel_profile.cpp
 
-/// What kernels record of themselves in a frame, and the frame.
+/// What observing kernels recorded in frames.
 struct ObservedKernels {
     KernelProfile profile;
     std::vector<abi::WorkCounts> counts;  ///< by generation
     FrameCounts rays;
 };
 
-/// Frames of the same scene on one thread, observed and not, in turns.
+/// Renders frames on one thread, observed and not, by turns.
 template <class Real>
 [[nodiscard]] ObservedKernels observe_kernels(const Scene& scene, const ProfileOptions& options);
 
 // busy_machine.cpp
 
-/// What of a profile was measured on too busy a machine, a sentence each. Figures that vary from
-/// turn to turn by more than a tenth of a frame, and sums that are more than that off their whole,
-/// are no figures.
+/// The parts of a profile that a busy machine made useless, in a sentence each: figures that vary
+/// from turn to turn by more than a tenth of a frame, and sums that differ by more than a tenth
+/// from their whole.
 [[nodiscard]] std::vector<std::string> busy_lines(const Profile& profile);
 
 }  // namespace packtrace

@@ -24,10 +24,11 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-// Copies of a pixel that are traced together.
+// Copies of a pixel that are traced together, so that packets are full and the clock is exact
+// enough.
 constexpr int copies = 64;
 
-// Numbers threads as they come.
+// Numbers threads in the order in which they ask.
 class ThreadNumbers {
 public:
     int mine()
@@ -66,7 +67,7 @@ std::vector<TileSpan> trace_tiles(const Scene& scene, const ProfileOptions& opti
     std::vector<TileSpan> spans;
     run_on_threads(options.threads, [&] {
         const std::function<void(double)> silent;
-        // The first frame pays for memory.
+        // The first frame allocates memory.
         Progress first(grid.count(), silent);
         (void)for_each_piece(grid, first, render);
         Progress done(grid.count(), silent);
@@ -116,7 +117,7 @@ std::vector<double> pixel_costs(const Scene& scene, const ProfileOptions& option
             std::fill_n(samples.column, copies, static_cast<Real>(x - job.x + place.x));
             std::fill_n(samples.row, copies, static_cast<Real>(y - job.y + place.y));
             double least = 0.0;
-            // The quicker of two: the other may have been interrupted.
+            // The faster of two turns counts: the other may have been interrupted.
             for (int turn = 0; turn < 2; ++turn) {
                 const auto from = Clock::now();
                 (void)kernels.render_tiles(&job, 1);
@@ -135,7 +136,7 @@ Image<float> cost_picture(const std::vector<double>& seconds, int width, int hei
         throw std::invalid_argument("cost_picture: " + std::to_string(seconds.size()) +
                                     " times for a picture of " + std::to_string(width) + " x " +
                                     std::to_string(height) + " pixels; give each pixel one");
-    // An interrupted pixel is off the scale, not the scale.
+    // The scale leaves out a thousandth at both ends, so that interrupted pixels do not stretch it.
     const double low = quantile(seconds, 0.001);
     const double high = std::max(quantile(seconds, 0.999), low * 1.0001);
     for (std::size_t i = 0; i < seconds.size(); ++i) {

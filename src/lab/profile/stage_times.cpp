@@ -87,7 +87,7 @@ double seconds_of_tick(const std::vector<ClockReading>& readings)
 
 namespace {
 
-// Whose work it is, in the order of printing.
+// The kind of ray that work is for, in the order of printing.
 enum Rays : std::size_t { camera, reflected, refracted, shadow, hits, rays_count };
 
 constexpr const char* rays_names[] = {"camera", "reflected", "refracted", "shadow", "hits"};
@@ -111,7 +111,7 @@ constexpr const char* step_names[] = {
 };
 static_assert(std::size(step_names) == abi::step_count);
 
-// Whose a stage is that is not traced for secondary rays.
+// The kind of ray that a stage is for; `camera` also stands for secondary rays (see add_step()).
 Rays rays_of(abi::Stage stage, abi::RayPurpose purpose)
 {
     if (purpose == abi::RayPurpose::shadow || stage == abi::Stage::shadows)
@@ -119,7 +119,8 @@ Rays rays_of(abi::Stage stage, abi::RayPurpose purpose)
     return stage == abi::Stage::setup || stage == abi::Stage::trace ? camera : hits;
 }
 
-// Ticks of a reading of the clock taken off for each: it waits, so that all of them are its own.
+// Ticks without those of reading the clock. Reading waits for all work before it, so that its ticks
+// are its own.
 double without_readings(const abi::Ticks& step_ticks, std::uint64_t reading)
 {
     return std::max(0.0, static_cast<double>(step_ticks.ticks) -
@@ -146,7 +147,7 @@ void StageSeconds::add(const std::vector<GenerationTimes>& stages,
 {
     for (std::size_t depth = 0; depth < generations_.size(); ++depth)
         for (int stage = 0; stage < abi::stage_count; ++stage) {
-            // A stage too short for its clock is divided as it was read.
+            // If a stage is too short for the clock, its steps' ticks are used as they are.
             const bool is_clocked = total_of(steps[depth], stage, reading) > 0.0;
             const std::uint64_t taken_off = is_clocked ? reading : 0;
             const double total = total_of(steps[depth], stage, taken_off);
@@ -164,7 +165,7 @@ void StageSeconds::add(const std::vector<GenerationTimes>& stages,
         }
 }
 
-// Tracing after the first generation is for reflected and refracted rays.
+// After the first generation `camera` stands for reflected and refracted rays.
 void StageSeconds::add_step(std::size_t depth, std::size_t rays, std::size_t step,
                             double refracted_share, double seconds)
 {

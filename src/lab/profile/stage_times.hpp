@@ -8,19 +8,19 @@
 #include <cstdint>
 #include <vector>
 
-// The times of stages that kernels record of themselves, and the seconds of each of their steps.
+// The times of stages that kernels record, and the seconds of each of their steps.
 namespace packtrace {
 
-/// The same moment by the processor's counter and by the clock; the second may be read late, when
-/// other programs got in between.
+/// One moment by the processor's counter and by the clock. The clock may be read too late, if
+/// another program runs in between.
 struct ClockReading {
     std::uint64_t tick = 0;
     double seconds = 0.0;
 };
 
-/// Seconds a tick, of at least two readings in the order they were taken: the median of the
-/// slopes between each reading and the one half the readings later, which a few late ones do not
-/// move. Sen, Estimates of the Regression Coefficient Based on Kendall's Tau, 1968.
+/// Seconds per tick, by at least two readings in order: the median of the slopes between each
+/// reading and the one half of the readings later. A few late readings do not change it. Sen,
+/// Estimates of the Regression Coefficient Based on Kendall's Tau, 1968.
 [[nodiscard]] double seconds_of_tick(const std::vector<ClockReading>& readings);
 
 /// Ticks of a generation's stages.
@@ -31,17 +31,17 @@ struct GenerationTimes {
     [[nodiscard]] double total() const;
 };
 
-/// The stages of a frame's pieces (ObservedFrame), each clocked several times.
+/// The stages of a frame's pieces (ObservedFrame), clocked several times.
 class StageTimes {
 public:
     StageTimes(int pieces, int generations);
 
-    /// What the next piece is recorded into.
+    /// Begins a piece; returns what to record it into.
     [[nodiscard]] abi::Observation* begin();
-    /// That piece is done.
+    /// Ends the piece.
     void end(int piece);
 
-    /// Seconds of a piece's generations: of the time the piece took in the middle.
+    /// Seconds of a piece's generations, from the repetition with the median total.
     [[nodiscard]] std::vector<GenerationTimes> seconds(int piece) const;
 
 private:
@@ -49,27 +49,28 @@ private:
 
     std::vector<abi::StageTicks> ticks_;
     abi::Observation observation_;
-    std::vector<std::vector<std::vector<GenerationTimes>>>
-        of_piece_;                        // by piece, time and generation
-    std::vector<ClockReading> readings_;  // as each piece ended
+    // By piece, repetition and generation.
+    std::vector<std::vector<std::vector<GenerationTimes>>> of_piece_;
+    std::vector<ClockReading> readings_;  // at the end of each piece
     Clock::time_point start_ = Clock::now();
 };
 
-/// The seconds of each stage, gathered piece by piece.
+/// The seconds of each stage and step, summed over the pieces.
 class StageSeconds {
 public:
     explicit StageSeconds(int generations);
 
-    /// Divides what the stages of a piece's generations took among their steps, in the shares of
-    /// those steps' own clock. `steps` has as many elements as `stages`.
+    /// Divides the times of a piece's stages among their steps, by the shares that the steps' own
+    /// clock gives. Both vectors are by generation. `reading` is the ticks that reading the clock
+    /// takes.
     void add(const std::vector<GenerationTimes>& stages, const std::vector<abi::StepTicks>& steps,
              std::uint64_t reading);
 
-    /// Those that took any time, by generation and kind of ray.
+    /// The steps that took any time, by generation and kind of ray.
     [[nodiscard]] std::vector<KernelStage> stages() const;
 
 private:
-    // Of a generation, by kind of ray as StageSeconds::stages() has them.
+    // Of one generation, by kind of ray in the order of stages().
     using Generation = std::array<std::array<double, abi::step_count>, 5>;
 
     void add_step(std::size_t depth, std::size_t rays, std::size_t step, double refracted_share,

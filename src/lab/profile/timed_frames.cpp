@@ -20,7 +20,7 @@
 namespace packtrace {
 namespace {
 
-/// Pages of memory that this program was given when it first touched them.
+/// Pages of memory that this program has touched for the first time so far.
 std::uint64_t page_faults()
 {
     rusage use{};
@@ -53,7 +53,7 @@ std::vector<FirstFrameStep> first_frame_steps(const Scene& scene, const ProfileO
     std::vector<FirstFrameStep> steps;
     steps.push_back(step("threads started", threads, [threads] { start_threads(threads); }));
     const Renderer<Real> renderer(scene, render_options(options));
-    // Both are kept: memory that is freed may come back warm.
+    // Both are kept, because freed memory could be reused while it is warm.
     Image<Real> first, second;
     const auto frame = [&](const char* name, Image<Real>& image) {
         steps.push_back(step(name, threads, [&] { (void)renderer.render(image); }));
@@ -78,7 +78,7 @@ ProfileRun frame_run(const std::string& name, const Scene& scene, const LoweredS
     return {name, [renderer, image] { return renderer->render(*image); }};
 }
 
-// Camera rays and what they meet, on this thread.
+// Camera rays and their closest hits, on this thread.
 template <class Real>
 class CameraRays {
 public:

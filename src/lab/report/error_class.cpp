@@ -31,15 +31,19 @@ constexpr std::array<ClassText, error_class_count> texts{{
     {"lost hit", "a ray missed what lies squarely in its way, or met what does not"},
 }};
 
-// How far from its start, in epsilons, a hit still has to do with epsilon.
+// A hit is near the start of its ray within this many epsilons.
 constexpr double near_epsilons = 100.0;
-// Points and normals that are further apart than this, against their size, are off.
+// Points, normals and shares of light differ if they are further apart than this, relative to their
+// size.
 constexpr double position_tolerance = 1e-4;
+// Hits whose t differ by more than this share are different roots, not one rounded differently.
+constexpr double root_tolerance = 1e-2;
+// Normals that differ by less than this cannot change diffuse light much.
+constexpr double highlight_tolerance = 1e-2;
 
-// Too far from each other for rounding.
-bool is_other_crossing(double t, double other)
+bool is_other_root(double t, double other)
 {
-    return std::abs(t - other) > 1e-2 * std::max(t, other);
+    return std::abs(t - other) > root_tolerance * std::max(t, other);
 }
 
 bool apart(const Vec3& a, const Vec3& b)
@@ -70,15 +74,15 @@ struct ErrorClassifier::State {
     {
     }
 
-    // The difference that moves the colour most, so far.
+    // The difference with the largest effect so far.
     struct Finding {
         std::optional<ClassifiedError> worst;
 
-        template <class Judge>
-        void offer(double effect, const Judge& judge)
+        template <class Classify>
+        void offer(double effect, const Classify& classify)
         {
             if (effect > (worst ? worst->effect : 0.0))
-                worst = {judge(), effect};
+                worst = {classify(), effect};
         }
     };
 
@@ -89,9 +93,8 @@ struct ErrorClassifier::State {
                         [&] { return of_ray(tested, depth); });
             return;
         }
-        if (const auto crossing = of_crossing(truth, tested, depth)) {
-            worst.offer(largest_component(sum_of(truth) - sum_of(tested)),
-                        [&] { return *crossing; });
+        if (const auto root = of_root(truth, tested, depth)) {
+            worst.offer(largest_component(sum_of(truth) - sum_of(tested)), [&] { return *root; });
             return;
         }
         compare_lights(truth, tested, depth, worst);
@@ -102,7 +105,7 @@ struct ErrorClassifier::State {
             if (a != nullptr && b != nullptr)
                 compare(*a, *b, depth + 1, worst);
             else if (a != nullptr || b != nullptr)
-                // A child can change its parent's own light, too.
+                // The whole trees are compared, because a child can change its parent's light.
                 worst.offer(largest_component(sum_of(truth) - sum_of(tested)),
                             [] { return ErrorClass::deep; });
         }
@@ -125,7 +128,7 @@ struct ErrorClassifier::State {
         }
     }
 
-    // What is no light's: ambient light, the background, the depth limit.
+    // Compares what comes from no light: ambient light, the background, the depth limit.
     void compare_rest(const RayNode& truth, const RayNode& tested, Finding& worst) const
     {
         if (truth.object < 0) {
@@ -145,7 +148,7 @@ struct ErrorClassifier::State {
                         [&] { return of_geometry(truth, tested); });
     }
 
-    // A ray of the tested tree that met another object than the truth's.
+    // The class of a tested ray that hit another object than the true ray.
     [[nodiscard]] ErrorClass of_ray(const RayNode& tested, int depth) const
     {
         const auto hit = rays.trace(tested.org, tested.dir, depth == 0 ? camera_t_min : epsilon,
@@ -155,15 +158,15 @@ struct ErrorClassifier::State {
         return near_or_lost(hit.t, tested.t, depth);
     }
 
-    // The same object, but where the ray meets it another time; none where it does not.
-    [[nodiscard]] std::optional<ErrorClass> of_crossing(const RayNode& truth, const RayNode& tested,
-                                                        int depth) const
+    // The class of a tested ray that hit the same object at another root; none if it did not.
+    [[nodiscard]] std::optional<ErrorClass> of_root(const RayNode& truth, const RayNode& tested,
+                                                    int depth) const
     {
-        if (truth.object < 0 || !is_other_crossing(truth.t, tested.t))
+        if (truth.object < 0 || !is_other_root(truth.t, tested.t))
             return std::nullopt;
         const auto hit = rays.trace(tested.org, tested.dir, depth == 0 ? camera_t_min : epsilon,
                                     std::numeric_limits<double>::infinity());
-        if (!hit.stable || !is_other_crossing(hit.t, tested.t))
+        if (!hit.stable || !is_other_root(hit.t, tested.t))
             return std::nullopt;
         return near_or_lost(hit.t, tested.t, depth);
     }
@@ -174,7 +177,7 @@ struct ErrorClassifier::State {
         return depth > 0 && near ? ErrorClass::near_start : ErrorClass::lost_hit;
     }
 
-    // A point that the tested tree has lit or shadowed otherwise.
+    // The class of a point to which another share of a light came.
     [[nodiscard]] ErrorClass of_shadow(const RayNode& tested, const LightShare& light,
                                        const LightShare& truth, int depth) const
     {
@@ -185,27 +188,27 @@ struct ErrorClassifier::State {
         const auto occluder =
             rays.trace(tested.point, way, epsilon,
                        point ? 1.0 - epsilon : std::numeric_limits<double>::infinity());
-        const bool blocked = occluder.object >= 0;
+        const bool occluded = occluder.object >= 0;
         const bool tested_darker =
             largest_component(*light.share) < largest_component(*truth.share);
-        if (!occluder.stable || blocked == tested_darker)
+        if (!occluder.stable || occluded == tested_darker)
             return edge;
-        // With nothing else in the way, the light is kept off by the surface it falls on.
-        if (!blocked)
+        // Without another occluder, the lit surface occluded itself.
+        if (!occluded)
             return ErrorClass::near_start;
         return occluder.t <= near_epsilons * epsilon ? ErrorClass::near_start
                                                      : ErrorClass::lost_hit;
     }
 
-    // The same object in the same light, of another colour.
+    // The class of a hit with another colour from the same share of light.
     [[nodiscard]] ErrorClass of_color(const RayNode& truth, const RayNode& tested, int light) const
     {
         const Light& source = scene.lights[static_cast<std::size_t>(light)];
         const Vec3 way = glm::normalize(
             source.type == LightType::point ? source.vector - truth.point : source.vector);
         const Vec3 mirrored = 2.0 * dot(truth.normal, way) * truth.normal - way;
-        // A diffuse light could differ this much only if the normal did.
-        if (dot(mirrored, -truth.dir) > 0.0 && glm::distance(truth.normal, tested.normal) < 1e-2)
+        if (dot(mirrored, -truth.dir) > 0.0 &&
+            glm::distance(truth.normal, tested.normal) < highlight_tolerance)
             return ErrorClass::highlight;
         return of_geometry(truth, tested);
     }

@@ -9,36 +9,36 @@
 #include <optional>
 #include <string>
 
-// Why pixels differ from the truth, and how many for which reason.
+// The reasons why pixels differ from the truth, and their shares.
 namespace packtrace {
 
-/// Why a pixel differs from the truth: the difference between the two ray trees that moves its
+/// Why a pixel differs from the truth: the difference between the two ray trees that changes its
 /// colour most.
 enum class ErrorClass {
     silhouette,   ///< the camera ray passes an object's edge on its other side
-    shadow_edge,  ///< the point seen lies on the other side of a shadow's edge
-    deep,         ///< a mirrored or refracted ray took another way, or was not traced
+    shadow_edge,  ///< the hit point is on the other side of a shadow's edge
+    deep,         ///< a mirrored or refracted ray hit something else, or was not traced
     highlight,    ///< same rays, but another highlight
-    position,     ///< same rays, but the hit point or its normal is off
+    position,     ///< same rays, but another hit point or normal
     shading,      ///< same rays, but another colour that is no highlight
-    near_start,   ///< a ray met something, or missed it, that lies by its start: epsilon
-    lost_hit      ///< a ray missed what lies squarely in its way, or met what does not
+    near_start,   ///< a ray hit or missed something within some epsilons of its start
+    lost_hit      ///< a ray missed what it surely hits, or hit what it surely misses
 };
 inline constexpr int error_class_count = 8;
 
 struct ClassifiedError {
     ErrorClass kind = ErrorClass::shading;
-    double effect = 0.0;  ///< on the pixel, the largest of its channels
+    double effect = 0.0;  ///< change of the pixel, the largest of its channels
 };
 
 /// "silhouette", "shadow edge" …
 [[nodiscard]] std::string name_of(ErrorClass kind);
-/// One sentence on it.
+/// What the class means, in a sentence.
 [[nodiscard]] std::string meaning_of(ErrorClass kind);
 
-/// Compares ray trees of pixels of one scene. Where they take different ways, it asks the scalar
-/// reference in double what a ray should have met, and what rays close to it meet: only if these
-/// agree is it not an edge.
+/// Compares ray trees of pixels of one scene. Where rays hit different objects, it traces the ray
+/// and rays next to it with the scalar reference in double: there is an edge unless all hit the
+/// same object.
 class ErrorClassifier {
 public:
     explicit ErrorClassifier(const Scene& scene);
@@ -46,7 +46,7 @@ public:
     ErrorClassifier(ErrorClassifier&&) noexcept;
     ErrorClassifier& operator=(ErrorClassifier&&) noexcept;
 
-    /// None for trees that bring the same colour. `tested` is the tree that is in doubt.
+    /// None for trees of the same colour. `tested` is the tree to be classified.
     [[nodiscard]] std::optional<ClassifiedError> classify(const RayNode& truth,
                                                           const RayNode& tested) const;
 
@@ -57,11 +57,12 @@ private:
 
 // error_shares.cpp
 
-/// Why a pixel is off, by any means.
+/// Gives the reason why a pixel is off.
 using ClassOfPixel = std::function<std::optional<ClassifiedError>(int x, int y)>;
 
-/// Fills in the run's shares: of its pixels that are off or, when there are none, of its worst
-/// ones. When they are more than options.classified, some spread evenly over them stand for all.
+/// Sets the run's shares: of its pixels that are off or, if there are none, of its worst pixels. If
+/// there are more than options.classified, a selection that is spread evenly over them stands for
+/// all.
 void find_shares(ReportRun& run, const Image<double>& truth, const Image<double>& picture,
                  const ReportOptions& options, const ClassOfPixel& class_of);
 

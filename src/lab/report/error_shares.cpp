@@ -7,7 +7,7 @@
 namespace packtrace {
 namespace {
 
-// Errors in the last digits of a double are nobody's fault.
+// Smaller errors are rounding errors of double.
 constexpr double rounding = 1e-12;
 
 std::vector<PixelError> errors_above(double threshold, const Image<double>& truth,

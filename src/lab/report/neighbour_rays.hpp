@@ -10,7 +10,7 @@
 
 namespace packtrace {
 
-/// A ray's first hit as the scalar reference has it in double, and those of rays close by.
+/// The closest hits of a ray and of rays next to it, by the scalar reference in double.
 class NeighbourRays {
 public:
     explicit NeighbourRays(const Scene& scene) : rays_(scene, {.kernel = Kernel::scalar})
@@ -20,10 +20,9 @@ public:
     struct FirstHit {
         int object = -1;
         double t = 0.0;       ///< in lengths of the direction; t_max for a miss
-        bool stable = false;  ///< all rays close by meet the same object
+        bool stable = false;  ///< all neighbours hit the same object
     };
 
-    /// Directions close by differ by a ten-thousandth of the direction's length.
     [[nodiscard]] FirstHit trace(const Vec3& org, const Vec3& dir, double t_min, double t_max) const
     {
         std::array<Ray<double>, ray_count> rays;
@@ -40,8 +39,9 @@ public:
     }
 
 private:
+    // Neighbours' directions differ by this share of the direction's length.
     static constexpr double spread = 1e-4;
-    // The ray itself, and one to each side of each axis.
+    // The ray itself, and two neighbours for each axis.
     static constexpr std::size_t ray_count = 7;
 
     static Vec3 moved(const Vec3& dir, std::size_t ray)

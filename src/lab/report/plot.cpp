@@ -14,15 +14,16 @@
 namespace packtrace {
 namespace {
 
-// Pixels of the picture, and of what is inside the axes.
+// The picture and the area inside the axes, in pixels.
 constexpr double plot_width = 900.0;
 constexpr double plot_height = 560.0;
 constexpr PixelBox inside_axes{78.0, 46.0, 690.0, 494.0};
-// Of the labels' letters.
+// Width of a letter and height of a line of labels, in pixels.
 constexpr double label_letter = 6.4;
 constexpr double label_line = 14.0;
 
-// As a string of gnuplot's between single quotes. A line end would begin another command.
+// A string of gnuplot between single quotes. It is escaped, because a line end would begin another
+// command.
 std::string quoted(const std::string& text)
 {
     return "'" + replaced(language::escape(text), '\'', "''") + "'";
@@ -59,7 +60,7 @@ Axes axes_of(const Plot& plot)
     return axes;
 }
 
-// Of all series together, in their order; those of lines have none.
+// The labels of all series together, in their order. Lines have none.
 std::vector<PixelBox> label_places(const Plot& plot, const Axes& axes)
 {
     std::vector<LabelledPoint> points;
@@ -76,13 +77,13 @@ void write_block(std::ostream& to, const std::string& name, const std::string& r
     to << '$' << name << " << END_OF_ROWS\n" << rows << "END_OF_ROWS\n";
 }
 
-// A point's row, or that of its place on the axes.
+// A row of gnuplot's data.
 std::string row_of(double x, double y, const std::string& more = "")
 {
     return number_text(x) + " " + number_text(y) + more + "\n";
 }
 
-// The points of each series, and lines from them to their labels.
+// Writes the points of each series, the lines from them to their labels, and the labels.
 void write_data(std::ostream& to, const Plot& plot, const Axes& axes)
 {
     const std::vector<PixelBox> places = label_places(plot, axes);
@@ -98,7 +99,7 @@ void write_data(std::ostream& to, const Plot& plot, const Axes& axes)
             const PixelBox& box = places[next++];
             const double middle = axes.y.value((box.top + box.bottom) / 2);
             const bool is_left = box.right < axes.x.pixel(point.x);
-            // One line off, its place tells whose a label is.
+            // A label right beside its point needs no line.
             const bool is_beside = std::abs((box.top + box.bottom) / 2 - axes.y.pixel(point.y)) < 1;
             const double end = is_left ? box.right : box.left;
             leaders += row_of(point.x, y) +
@@ -167,7 +168,7 @@ std::string script_of(const Plot& plot)
     return script.str();
 }
 
-/// The last line that gnuplot says of a script, for messages.
+/// The last line of gnuplot's error output for a script, for messages.
 std::string complaint_of(const std::string& script)
 {
     std::string said = run_filter({"gnuplot"}, script, STDERR_FILENO).output;
@@ -181,7 +182,7 @@ std::string complaint_of(const std::string& script)
 
 const char* series_color(std::size_t series)
 {
-    // The colour-blind tell them apart, too.
+    // Colour-blind people can tell these colours apart, too.
     static constexpr std::array<const char*, 6> colors{"#888888", "#009e73", "#d55e00",
                                                        "#0072b2", "#000000", "#a03080"};
     return colors[series % colors.size()];

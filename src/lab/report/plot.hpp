@@ -7,23 +7,23 @@
 
 namespace packtrace {
 
-/// gnuplot is missing or refuses; `what()` is one line.
+/// gnuplot is missing or fails; `what()` is one line.
 struct PlotError : std::runtime_error {
     using std::runtime_error::runtime_error;
 };
 
 struct PlotPoint {
     double x = 0.0;  ///< > 0
-    double y = 0.0;  ///< >= 0; zeros lie on a line of their own below the others
+    double y = 0.0;  ///< >= 0; zeros lie on a separate line below the others
     std::string label;
-    double low = 0.0;  ///< a bar from here to `high`, of which `x` is the middle
+    double low = 0.0;  ///< a bar around `x` goes from here to `high`
     double high = 0.0;
 };
 
 struct PlotSeries {
     std::string name;
-    std::vector<PlotPoint> points;
-    bool line = false;  ///< through its points, which have neither labels nor bars then
+    std::vector<PlotPoint> points = {};
+    bool line = false;  ///< draws a line through the points, without labels and bars
 };
 
 struct Plot {
@@ -33,21 +33,21 @@ struct Plot {
     std::vector<PlotSeries> series;
 };
 
-/// A double-logarithmic plot as SVG, drawn by gnuplot, whose labels do not lie on each other.
-/// gnuplot numbers what it draws as groups gnuplot_plot_1 …: one for a line; for other series its
+/// A double-logarithmic plot as SVG, drawn by gnuplot, without overlapping labels. gnuplot numbers
+/// the groups of the picture gnuplot_plot_1 …: one for a line; three for other series, with their
 /// points, the lines to their labels, and the labels. Throws PlotError.
 [[nodiscard]] std::string draw_svg(const Plot& plot);
 
-/// How many of these groups a series takes.
+/// The number of groups of a series.
 [[nodiscard]] inline int groups_of(const PlotSeries& series)
 {
     return series.line ? 1 : 3;
 }
 
-/// The colour that a plot draws its series of an index in, as #rrggbb.
+/// The colour of a plot's series number `series`, as #rrggbb.
 [[nodiscard]] const char* series_color(std::size_t series);
 
-/// Throws the PlotError that draw_svg would throw for want of gnuplot.
+/// Throws PlotError if gnuplot is missing.
 void check_plots();
 
 }  // namespace packtrace

@@ -11,6 +11,18 @@ namespace {
 
 constexpr int most_decade_tics = 8;
 
+// Room at both ends of a fine axis: at least this factor, or this power of the axis' range.
+constexpr double least_room = 1.3;
+constexpr double room_power = 0.1;
+
+// Axes with a larger range have tics at decades only.
+constexpr double fine_range = 300.0;
+
+// Room at both ends of a decade axis, in decades; and the decades to the line of zeros or
+// infinities.
+constexpr double decade_room = 0.2;
+constexpr int decades_to_special = 2;
+
 std::string tic_text(const char* format, double value)
 {
     char text[32];
@@ -41,11 +53,10 @@ PlotAxis fine_axis(const std::vector<double>& values)
     PlotAxis axis;
     const double least = *std::min_element(values.begin(), values.end());
     const double most = *std::max_element(values.begin(), values.end());
-    // A tenth of the way on both sides, and something where there is no way.
-    const double room = std::max(1.3, std::pow(most / least, 0.1));
+    const double room = std::max(least_room, std::pow(most / least, room_power));
     axis.low = least / room;
     axis.high = most * room;
-    const bool wide = axis.high / axis.low > 300.0;
+    const bool wide = axis.high / axis.low > fine_range;
     for (int exponent = static_cast<int>(std::floor(std::log10(axis.low)));
          power_of_ten(exponent) <= axis.high; ++exponent)
         for (const double digit : {1.0, 2.0, 5.0}) {
@@ -72,11 +83,11 @@ PlotAxis decade_axis(const std::vector<double>& values)
     }
     if (most == 0.0)
         most = least;
-    const int lowest = static_cast<int>(std::floor(std::log10(least) - 0.2));
-    const int highest = static_cast<int>(std::ceil(std::log10(most) + 0.2));
+    const int lowest = static_cast<int>(std::floor(std::log10(least) - decade_room));
+    const int highest = static_cast<int>(std::ceil(std::log10(most) + decade_room));
     PlotAxis axis;
-    axis.low = power_of_ten(has_zero ? lowest - 2 : lowest);
-    axis.high = power_of_ten(has_infinity ? highest + 2 : highest);
+    axis.low = power_of_ten(has_zero ? lowest - decades_to_special : lowest);
+    axis.high = power_of_ten(has_infinity ? highest + decades_to_special : highest);
     if (has_zero)
         axis.tics.push_back({axis.low, "0"});
     const int step = (highest - lowest) / most_decade_tics + 1;
@@ -89,12 +100,12 @@ PlotAxis decade_axis(const std::vector<double>& values)
 
 namespace {
 
-// Half the edge of what a point's dot takes, and what lies between it and its label.
+// Half the edge of a point's dot, and the gap between it and its label, in pixels.
 constexpr double dot_radius = 5.0;
 constexpr double label_gap = 3.0;
-// Half the height of a bar's ends.
+// Half the height of a bar's ends, in pixels.
 constexpr double bar_radius = 3.0;
-// How many lines further up or down a label may stand.
+// How many lines above or below its point a label may be.
 constexpr int most_lines_off = 24;
 
 PixelBox box_around(const LabelledPoint& point)
@@ -113,7 +124,7 @@ bool is_inside(const PixelBox& box, const PixelBox& area)
            box.bottom <= area.bottom;
 }
 
-// Places for a label, the best first: right, left, then ever more lines up and down.
+// Places for a label, the best first: right, left, then more and more lines up and down.
 std::vector<PixelBox> candidate_places(const LabelledPoint& point, double width, double line)
 {
     std::vector<PixelBox> boxes;
@@ -140,7 +151,7 @@ std::vector<PixelBox> place_labels(const std::vector<LabelledPoint>& points, con
     for (const LabelledPoint& point : points)
         for (const PixelBox& box : {box_around(point), bar_of(point)})
             taken.push_back(box);
-    // From the left, as their labels go to the right.
+    // From left to right, as labels prefer the right side.
     std::vector<std::size_t> order(points.size());
     std::iota(order.begin(), order.end(), std::size_t{0});
     std::stable_sort(order.begin(), order.end(),

@@ -3,18 +3,18 @@
 #include <string>
 #include <vector>
 
-// Where the axes and the labels of a plot lie.
+// The layout of a plot: its axes and labels.
 namespace packtrace {
 
-/// A logarithmic axis of a plot, with the pixels it lies on.
+/// A logarithmic axis of a plot, and its pixels.
 struct PlotAxis {
     struct Tic {
         double value = 0.0;
         std::string name;
     };
 
-    double low = 0.1;  ///< at its first pixel
-    double high = 1.0;
+    double low = 0.1;   ///< value at the first pixel
+    double high = 1.0;  ///< value at the last pixel
     std::vector<Tic> tics;
 
     double first_pixel = 0.0;
@@ -24,11 +24,11 @@ struct PlotAxis {
     [[nodiscard]] double value(double pixel) const;
 };
 
-/// With tics at 1, 2 and 5 of every decade, and some room on both sides. `values` are > 0.
+/// An axis with tics at 1, 2 and 5 of every decade, and some room on both sides. `values` are > 0.
 [[nodiscard]] PlotAxis fine_axis(const std::vector<double>& values);
 
-/// With tics at decades. Zeros among the values lie two decades below the least other, infinite
-/// ones as far above the largest.
+/// An axis with tics at decades. Zeros lie two decades below the least other value, infinite values
+/// two decades above the largest.
 [[nodiscard]] PlotAxis decade_axis(const std::vector<double>& values);
 
 /// A rectangle of a picture, in pixels to the right and down.
@@ -44,7 +44,7 @@ struct PixelBox {
     return a.left < b.right && b.left < a.right && a.top < b.bottom && b.top < a.bottom;
 }
 
-/// A point of a plot that has something to be written beside it.
+/// A point of a plot with a label.
 struct LabelledPoint {
     double x = 0.0;
     double y = 0.0;
@@ -54,9 +54,9 @@ struct LabelledPoint {
     double bar_right = x;
 };
 
-/// Where the labels go, in the order of the points: into `area`, beside their points or further
-/// off, so that none lies on another, nor on a point or its bar, as long as there is room.
-/// Characters are taken as `letter` wide, lines as `line` high.
+/// The places of the labels, in the order of the points: inside `area`, beside their points or
+/// further away. As long as there is room, no label overlaps another one, a point or a bar.
+/// Characters count as `letter` wide, lines as `line` high.
 [[nodiscard]] std::vector<PixelBox> place_labels(const std::vector<LabelledPoint>& points,
                                                  const PixelBox& area, double letter, double line);
 

@@ -11,7 +11,7 @@ bool is_as_exact(const ReportRun& run, const ReportRun& than)
     return run.error.rmse <= than.error.rmse;
 }
 
-// What may stand in another's place on the front: it is as exact, and not surely slower.
+// Whether a run may take another one's place on the front: it is as exact and not surely slower.
 bool may_beat(const ReportRun& run, const ReportRun& other)
 {
     return is_as_exact(run, other) && !surely_faster(other, run);
@@ -36,7 +36,7 @@ bool is_quicker(const ReportRun& run, const ReportRun* best)
     return best == nullptr || run.median < best->median;
 }
 
-// More exact, or as exact and quicker.
+// More exact, or as exact and faster.
 bool is_better(const ReportRun& run, const ReportRun* best)
 {
     return best == nullptr || run.error.rmse < best->error.rmse ||

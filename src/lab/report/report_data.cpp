@@ -6,11 +6,11 @@
 
 #include <sstream>
 
-// The report as data, for programs: CSV and JSON.
+// The report as data for programs: CSV and JSON.
 namespace packtrace {
 namespace {
 
-// A field between quotes, as some names have commas.
+// A field between quotes, because some names have commas.
 std::string csv_text(const std::string& text)
 {
     return '"' + replaced(text, '"', "\"\"") + '"';

@@ -20,14 +20,14 @@ std::string escaped(const std::string& text)
     return replaced(replaced(replaced(text, '&', "&amp;"), '<', "&lt;"), '"', "&quot;");
 }
 
-// JSON as a script element can hold it: what begins a tag there ends it, or the page.
+// JSON for a script element, without "<", which could begin a tag.
 std::string json_in_page(const nlohmann::ordered_json& json)
 {
     return replaced(json.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace),
                     '<', "\\u003c");
 }
 
-// Bytes in the alphabet of RFC 4648, padded.
+// Base64 by RFC 4648, with padding.
 std::string base64(std::span<const std::uint8_t> bytes)
 {
     constexpr const char* alphabet =
@@ -50,54 +50,64 @@ std::string png_uri(const Image<float>& image)
     return "data:image/png;base64," + base64(encode_png(image));
 }
 
-// A picture that can be chosen, or its heat map.
+// What is shown of a picture.
+enum class Shown { picture, error_map };
+constexpr Shown all_shown[] = {Shown::picture, Shown::error_map};
+
+// A picture or an error map that the page can show.
 struct Choice {
     const StudyReport* study = nullptr;
     std::size_t picture = 0;
-    bool is_error = false;
+    Shown shown = Shown::picture;
 
+    [[nodiscard]] bool is_error() const
+    {
+        return shown == Shown::error_map;
+    }
     [[nodiscard]] std::string file(const SceneReport& scene) const
     {
-        return is_error ? error_file(scene, *study, picture) : picture_file(scene, *study, picture);
+        return is_error() ? error_file(scene, *study, picture)
+                          : picture_file(scene, *study, picture);
     }
     [[nodiscard]] std::string label() const
     {
-        return (is_error ? "error of " : "") + picture_label(*study, picture);
+        return (is_error() ? "error of " : "") + picture_label(*study, picture);
     }
     [[nodiscard]] std::string uri() const
     {
-        return png_uri(is_error ? error_map(*study, picture)
-                                : convert<float>(study->pictures[picture].image));
+        return png_uri(is_error() ? error_map(*study, picture)
+                                  : convert<float>(study->pictures[picture].image));
     }
 };
 
-std::vector<Choice> choices_of(const StudyReport& study, bool errors)
+// The truth, which is picture 0, has no error map.
+std::vector<Choice> choices_of(const StudyReport& study, Shown shown)
 {
     std::vector<Choice> choices;
-    for (std::size_t i = errors ? 1 : 0; i < study.pictures.size(); ++i)
-        choices.push_back({&study, i, errors});
+    for (std::size_t i = shown == Shown::error_map ? 1 : 0; i < study.pictures.size(); ++i)
+        choices.push_back({&study, i, shown});
     return choices;
 }
 
-// What a slider shows at first: the truth, and where the first picture beside it is off.
+// What a slider shows at first: the truth, and the error map of the first other picture.
 Choice first_left(const SceneReport& scene)
 {
-    return {&scene.studies.front(), 0, false};
+    return {&scene.studies.front(), 0, Shown::picture};
 }
 Choice first_right(const SceneReport& scene)
 {
     const StudyReport& study = scene.studies.front();
-    return study.pictures.size() > 1 ? Choice{&study, 1, true} : first_left(scene);
+    return study.pictures.size() > 1 ? Choice{&study, 1, Shown::error_map} : first_left(scene);
 }
 
-// By their files' names, all but those that are in the page already.
+// All pictures by their files' names, without those that are in the page already.
 nlohmann::ordered_json pictures_json(const std::vector<SceneReport>& scenes)
 {
     nlohmann::ordered_json json = nlohmann::ordered_json::object();
     for (const SceneReport& scene : scenes)
         for (const StudyReport& study : scene.studies)
-            for (const bool errors : {false, true})
-                for (const Choice& choice : choices_of(study, errors)) {
+            for (const Shown shown : all_shown)
+                for (const Choice& choice : choices_of(study, shown)) {
                     const std::string file = choice.file(scene);
                     if (file != first_left(scene).file(scene) &&
                         file != first_right(scene).file(scene))
@@ -106,10 +116,10 @@ nlohmann::ordered_json pictures_json(const std::vector<SceneReport>& scenes)
     return json;
 }
 
-// What black and white stand for in a heat map, as an element's attributes.
+// The errors that are black and white in an error map, as an element's attributes.
 std::string scale_data(const Choice& choice)
 {
-    if (!choice.is_error)
+    if (!choice.is_error())
         return {};
     const double most = largest_error(*choice.study, choice.picture);
     return " data-least=\"" + brief(least_error_shown(most), 2) + "\" data-most=\"" +
@@ -122,12 +132,12 @@ void write_menu(std::ostream& to, const SceneReport& scene, const std::string& s
     const std::string chosen = first.file(scene);
     to << "<label>" << side << "<select class=\"" << side << "\">";
     for (const StudyReport& study : scene.studies)
-        for (const bool errors : {false, true}) {
-            const std::vector<Choice> choices = choices_of(study, errors);
+        for (const Shown shown : all_shown) {
+            const std::vector<Choice> choices = choices_of(study, shown);
             if (choices.empty())
                 continue;
             to << "<optgroup label=\"" << name_of(study.study)
-               << (errors ? ": heat maps of errors" : ": pictures") << "\">";
+               << (shown == Shown::error_map ? ": heat maps of errors" : ": pictures") << "\">";
             for (const Choice& choice : choices) {
                 const std::string file = choice.file(scene);
                 to << "<option" << (file == chosen ? " selected" : "") << " value=\""
@@ -139,10 +149,12 @@ void write_menu(std::ostream& to, const SceneReport& scene, const std::string& s
     to << "</select></label>";
 }
 
-// Small pictures are enlarged, by whole pixels.
+// Small pictures are enlarged to about this width, by whole pixels.
+constexpr int picture_width = 512;
+
 int scale_of(const Image<double>& image)
 {
-    return std::max(1, 512 / std::max(1, image.width));
+    return std::max(1, picture_width / std::max(1, image.width));
 }
 
 void write_first_picture(std::ostream& to, const std::string& side, const Choice& choice)
@@ -156,8 +168,8 @@ void write_first_picture(std::ostream& to, const std::string& side, const Choice
 
 void write_scale(std::ostream& to, const std::string& side, const Choice& choice)
 {
-    const double most = choice.is_error ? largest_error(*choice.study, choice.picture) : 0.0;
-    to << "<div class=\"scale " << side << '"' << (choice.is_error ? "" : " hidden")
+    const double most = choice.is_error() ? largest_error(*choice.study, choice.picture) : 0.0;
+    to << "<div class=\"scale " << side << '"' << (choice.is_error() ? "" : " hidden")
        << "><span>error of a pixel, " << side
        << ":</span><span class=\"range\"><span class=\"least\">"
        << brief(least_error_shown(most), 2)
@@ -208,7 +220,7 @@ void write_page_table(std::ostream& to, const StudyReport& study)
     to << "</tbody></table></div>\n";
 }
 
-/// A plot with `suffix` behind the ids that gnuplot gives all plots alike.
+/// A plot with `suffix` appended to its ids, which gnuplot makes the same in all plots.
 std::string with_own_ids(const std::string& svg, const std::string& suffix)
 {
     std::string result;
@@ -235,7 +247,7 @@ void write_plot(std::ostream& to, const SceneReport& scene, const StudyReport& s
            << replaced(group.ids, ' ', suffix + " ") << suffix << "\"> "
            << "<span class=\"swatch\" style=\"background:" << group.color << "\"></span>"
            << escaped(group.name) << "</label>";
-    // What stands before the element is for files.
+    // Without the XML header before the element.
     to << "</div><div class=\"canvas\">" << svg.substr(svg.find("<svg")) << "</div></div>\n";
 }
 

@@ -5,14 +5,14 @@
 namespace packtrace {
 namespace {
 
-/// A text as code in a cell of a table, in which a bar would end it.
+/// A text as code in a cell of a table, with bars escaped, which would end the cell.
 std::string code_cell(const std::string& text)
 {
     const bool has_fence = text.find('`') != std::string::npos;
     return (has_fence ? "`` " : "`") + replaced(text, '|', "\\|") + (has_fence ? " ``" : "`");
 }
 
-/// A text whose letters are no marks.
+/// A text with all characters escaped that have a meaning in Markdown.
 std::string plain(const std::string& text)
 {
     constexpr std::string_view marks = "\\`*_{}[]<>()#+!|&~";
@@ -25,7 +25,7 @@ std::string plain(const std::string& text)
     return result;
 }
 
-/// A file's name as a link has it (RFC 3986).
+/// A file's name in a link (RFC 3986).
 std::string link_to(const std::string& file)
 {
     constexpr std::string_view unreserved =

@@ -1,6 +1,6 @@
 #pragma once
 
-// The fixed parts of report.html.
+// The constant parts of report.html.
 namespace packtrace {
 
 inline constexpr const char* page_style = R"css(
@@ -93,11 +93,11 @@ tr.undecided td:first-child { font-style: italic; }
 }
 )css";
 
-// Before the page is drawn: what needs a script shows itself only where there is one.
+// Runs before the page is drawn: elements that need scripts are shown only where scripts run.
 inline constexpr const char* page_begin_script = "document.documentElement.classList.add('js');";
 
-// A slider draws the right picture over the left one from its mark on; the first two pictures are
-// in the page itself. A plot's boxes hide and show what gnuplot put into groups for each series.
+// A slider draws the right picture over the left one from its mark on. The first two pictures are
+// in the page itself. A plot's boxes hide and show the groups that gnuplot made for each series.
 inline constexpr const char* page_script = R"js(
 const pictures = JSON.parse(document.getElementById('pictures').textContent);
 

@@ -12,10 +12,11 @@
 #include <cstddef>
 #include <string>
 
-// The pictures of a report and their heat maps, by their index in StudyReport::pictures.
+// The pictures of a report and their error maps, by their index in StudyReport::pictures.
 namespace packtrace {
 
-/// What a reader calls it: "truth", or the run that gave it and how many others did, too.
+/// The name of a picture for readers: "truth", or its run and the number of other runs with the
+/// same picture.
 [[nodiscard]] inline std::string picture_label(const StudyReport& study, std::size_t picture)
 {
     const std::string& name = study.pictures[picture].label;
@@ -29,7 +30,7 @@ namespace packtrace {
     return name + " and " + std::to_string(runs) + " alike";
 }
 
-/// The largest finite error of a pixel against the truth, which white stands for in its heat map.
+/// The largest finite error of a pixel, which is white in the error map.
 [[nodiscard]] inline double largest_error(const StudyReport& study, std::size_t picture)
 {
     const Image<double>& truth = study.pictures.front().image;
@@ -41,19 +42,19 @@ namespace packtrace {
     return largest;
 }
 
-/// What black stands for where white is `largest`: any error as small, or none.
+/// The error that is black in an error map whose white is `largest`; smaller errors are black, too.
 [[nodiscard]] inline double least_error_shown(double largest)
 {
     return 1e-6 * largest;
 }
 
-/// Its heat map, without a legend.
+/// The error map of a picture, without a legend.
 [[nodiscard]] inline Image<float> error_map(const StudyReport& study, std::size_t picture)
 {
     return heatmap(study.pictures[picture].image, study.pictures.front().image);
 }
 
-/// Its heat map as a picture of its own, over a legend.
+/// The error map of a picture, above a legend.
 [[nodiscard]] inline Image<float> error_map_with_legend(const StudyReport& study,
                                                         std::size_t picture)
 {

@@ -37,10 +37,10 @@ PlotPoint point_of(const ReportRun& run, const std::string& label)
     return {1e3 * run.median, run.error.rmse, label, 1e3 * times.low, 1e3 * times.high};
 }
 
-// Each run that is more exact than all that are faster by their medians.
+// The runs that are more exact than all runs with a smaller median.
 PlotSeries front_of_medians(const StudyReport& study)
 {
-    PlotSeries front{"Pareto front of medians", {}, true};
+    PlotSeries front{.name = "Pareto front of medians", .line = true};
     std::vector<const ReportRun*> runs;
     for (const ReportRun& run : study.runs)
         runs.push_back(&run);
@@ -61,7 +61,7 @@ std::vector<PlotSeries> series_of(const StudyReport& study)
         const auto found = std::find_if(all.begin(), all.end(),
                                         [&](const PlotSeries& s) { return s.name == name; });
         PlotSeries& series =
-            found != all.end() ? *found : all.emplace_back(PlotSeries{name, {}, false});
+            found != all.end() ? *found : all.emplace_back(PlotSeries{.name = name});
         series.points.push_back(point_of(run, point_label(run.variant)));
     }
     return all;

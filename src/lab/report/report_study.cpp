@@ -16,7 +16,7 @@
 namespace packtrace {
 namespace {
 
-// Samples of a pixel whose trees stand for all it shows.
+// Samples of a pixel whose trees represent the whole pixel.
 constexpr int looked_at_samples = 16;
 
 std::string file_name_of(const std::string& name)
@@ -28,7 +28,7 @@ std::string file_name_of(const std::string& name)
     return result;
 }
 
-// Runs of equal pictures and trees are off for the same reasons.
+// The first run with a picture; null if there is none.
 const ReportRun* same_picture(const StudyReport& report, std::size_t picture)
 {
     for (const ReportRun& run : report.runs)
@@ -37,7 +37,7 @@ const ReportRun* same_picture(const StudyReport& report, std::size_t picture)
     return nullptr;
 }
 
-// A run with the samples of the truth would seem to have no error.
+// A run with as many samples as the truth would seem to have no error.
 void check_truth(const ReportOptions& options)
 {
     check_number("truth_samples", options.truth_samples, 2, most_samples);
@@ -94,7 +94,7 @@ Scene scene_of_truth(const Scene& scene)
     return whole;
 }
 
-// The trees of a pixel, each asked for once.
+// Classifies the errors of pixels by their ray trees.
 class StudyErrors::Classifier {
 public:
     Classifier(const Scene& scene, Study study)
@@ -114,7 +114,7 @@ public:
     }
 
 private:
-    // What sets the pixel's samples apart most from its first.
+    // The largest difference between the pixel's first sample and another one.
     [[nodiscard]] std::optional<ClassifiedError> class_of_samples(int x, int y) const
     {
         const std::vector<RayNode> trees = samples_(x, y);
@@ -225,7 +225,7 @@ StudyReport run_study(const Scene& scene_of_truth, Study study, const Truth& tru
 {
     StudyReport report = study_report(study, truth);
     const StudyErrors errors(scene_of_truth, study, truth, options);
-    // A first frame pays for the memory that later ones reuse, and gives the picture.
+    // The first frame gives the picture, and allocates memory that later ones reuse.
     for (std::size_t i = 0; i < subjects.size(); ++i) {
         stop_if_asked(options);
         add_run(report, StudyErrors::render(subjects[i]),

@@ -24,7 +24,7 @@ std::string run_text(const ReportRun& run)
            ")";
 }
 
-// A few of them by name.
+// The first few runs by name, and the number of the others.
 std::string names_text(const std::vector<const ReportRun*>& runs)
 {
     constexpr std::size_t most_named = 3;
@@ -60,7 +60,7 @@ std::string most_exact_line(const StudyReport& study, double seconds)
            names_text(choice.undecided) + ".";
 }
 
-// The uniform run of that many samples; null when there is none.
+// The uniform run with a number of samples; null if there is none.
 const ReportRun* uniform_run(const StudyReport& study, int samples)
 {
     for (const ReportRun& run : study.runs)
@@ -88,13 +88,16 @@ const ReportRun* best_adaptive(const StudyReport& study, const ReportRun& unifor
 
 std::string adaptive_line(const StudyReport& study)
 {
-    const ReportRun* uniform = uniform_run(study, 16);
+    // Adaptive sampling is compared with this many samples everywhere.
+    constexpr int uniform_samples = 16;
+    const ReportRun* uniform = uniform_run(study, uniform_samples);
     const ReportRun* adaptive = uniform == nullptr ? nullptr : best_adaptive(study, *uniform);
     if (adaptive == nullptr)
         return {};
     const bool decided = surely_faster(*adaptive, *uniform) || surely_faster(*uniform, *adaptive);
     const double of_rmse = adaptive->error.rmse / uniform->error.rmse;
-    return "Adaptive sampling against 16 samples everywhere: " + adaptive->variant.name +
+    return "Adaptive sampling against " + std::to_string(uniform_samples) +
+           " samples everywhere: " + adaptive->variant.name +
            (uniform->error.rmse > 0.0
                 ? " reaches " + brief(of_rmse) + " of its RMSE"
                 : " has an RMSE of " + brief(adaptive->error.rmse) + ", where that has 0,") +
@@ -102,8 +105,8 @@ std::string adaptive_line(const StudyReport& study)
            (decided ? "." : ", though the spreads of their times overlap.");
 }
 
-/// What cutting rays did at most to the picture of the same kernel with all rays, beside what it
-/// can do at most.
+/// For each run that cuts rays: the largest change of a pixel by that, compared with the run of all
+/// rays, and its proven bound.
 std::string bounds_line(const StudyReport& study)
 {
     const auto whole = std::find_if(study.runs.begin(), study.runs.end(), [](const ReportRun& run) {

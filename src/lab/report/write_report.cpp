@@ -29,7 +29,7 @@ constexpr const char* json_file = "report.json";
 constexpr const char* html_file = "report.html";
 constexpr const char* markdown_file = "report.md";
 
-/// Each scene has a folder beside the report's own files, and a truth.
+/// Checks that each scene has a folder name of its own, and that each study has a truth.
 void check_scenes(const std::vector<SceneReport>& scenes)
 {
     std::set<std::string> taken;
@@ -56,7 +56,7 @@ std::string report_folder_name(const std::string& name)
         if (c == '/' || c == '\\')
             c = '_';
     std::size_t end = std::min(result.size(), longest);
-    // Not in the middle of a character.
+    // Do not cut a character of several bytes.
     while (end < result.size() && (static_cast<unsigned char>(result[end]) & 0xC0u) == 0x80u)
         --end;
     result.resize(end);

@@ -11,6 +11,12 @@
 namespace packtrace::lab {
 namespace {
 
+/// The grid's step is about this share of the distance from the camera to the first object.
+constexpr double steps_to_object = 8.0;
+
+/// The grid's step if there is no such distance.
+constexpr double default_step = 0.5;
+
 Vec3 place_of(const Object& object)
 {
     const auto* const sphere = std::get_if<Sphere>(&object.surface);
@@ -26,13 +32,13 @@ double power_of_two(double value)
     return std::exp2(std::round(std::log2(value)));
 }
 
-/// The nearest of the directions along axes and between them.
+/// The nearest direction along an axis or a diagonal.
 Vec3 on_axes(const Vec3& direction)
 {
     return glm::round(direction / largest_component(direction));
 }
 
-/// The nearest turn that takes axes to axes, mirrored if need be.
+/// The nearest turn that takes axes to axes, mirrored if `turn` is.
 Mat3 on_axes(const Mat3& turn)
 {
     Mat3 nearest(0.0);
@@ -87,7 +93,7 @@ void align_surface(Polygon& polygon, double)
             corner = on_grid(corner, 0.25);
 }
 
-/// An identity stays one: spheres of their own centre have no other.
+/// An identity stays an identity, as spheres with a centre have no other transform.
 void align_transform(Mat4& transform, double step)
 {
     if (transform == Mat4(1.0))
@@ -108,7 +114,8 @@ double grid_step(const Scene& scene)
     double distance = 0.0;
     if (!scene.objects.empty())
         distance = glm::length(place_of(scene.objects.front()) - scene.camera.position);
-    return distance > 0.0 && std::isfinite(distance) ? power_of_two(distance / 8.0) : 0.5;
+    return distance > 0.0 && std::isfinite(distance) ? power_of_two(distance / steps_to_object)
+                                                     : default_step;
 }
 
 Vec3 on_grid(const Vec3& value, double step)

@@ -8,10 +8,23 @@
 #include <regex>
 #include <set>
 
-// What pictures promise: the same bits in every way of a group, numbers everywhere, and the scalar
-// kernel's colours where these do not hang on the last digits.
+// The promises about pictures: the same bits in every way of a group, finite numbers, and the
+// scalar kernel's colours wherever rounding does not decide them.
 namespace packtrace::lab {
 namespace {
+
+/// The allowed difference of transparent shadows, as a share of the largest value: more than the
+/// roundings of products of shares, far less than any share.
+constexpr double single_shadow_difference = 1e-5;
+constexpr double double_shadow_difference = 1e-13;
+
+/// Values that may be off the reference's in any picture, and one of this many counted ones:
+/// rounding decides some although both references agree.
+constexpr std::size_t always_off = 9;
+constexpr std::size_t values_an_off = 50;
+
+/// Values are compared relative to the largest one, but at least this.
+constexpr double least_unit = 1e-30;
 
 /// Red, green and blue of each pixel.
 using Values = std::vector<double>;
@@ -35,7 +48,7 @@ std::string pixel_text(const Scene& scene, std::size_t value)
            std::to_string(pixel / scene.width);
 }
 
-/// The first value that is none; empty where all are numbers.
+/// Names the first value that is not finite; empty if all are.
 std::string not_a_number(const Scene& scene, const Values& values)
 {
     for (std::size_t i = 0; i < values.size(); ++i)
@@ -53,7 +66,7 @@ double largest_value(const Values& values)
 }
 
 /// Shares of light through glass are multiplied in the order in which occluders are found, which
-/// a list and a hierarchy differ in.
+/// differs between lists and a BVH.
 double allowed_difference(const Scene& scene, const SoakWay& a, const SoakWay& b,
                           const Values& values)
 {
@@ -61,7 +74,9 @@ double allowed_difference(const Scene& scene, const SoakWay& a, const SoakWay& b
         a.options.traversal == Traversal::list && b.options.traversal == Traversal::list;
     if (scene.shadows != ShadowKind::transparent || same_order)
         return 0.0;
-    return (a.precision == Precision::single ? 1e-5 : 1e-13) * largest_value(values);
+    return (a.precision == Precision::single ? single_shadow_difference
+                                             : double_shadow_difference) *
+           largest_value(values);
 }
 
 std::string differing(const Scene& scene, const Values& a, const Values& b, double allowed)
@@ -98,7 +113,7 @@ SoakFinding finding_of_one(std::string what, const SoakWay& way)
     return {std::move(what), {way}, std::nullopt, again};
 }
 
-/// Where an object is, and of what shape; as text, in which 0 has no sign.
+/// An object's shape and placement as text, in which 0 has no sign.
 std::string place_text(const Object& object)
 {
     static const std::regex minus_zero("-0(?![.0-9e])");
@@ -109,8 +124,8 @@ std::string place_text(const Object& object)
     return std::regex_replace(scene_text(alone), minus_zero, "0");
 }
 
-/// Whether two objects share a place. A ray that leaves one of them then starts on the other, too,
-/// and rounding decides whether it hits it.
+/// Whether two objects have the same shape and placement. A ray that leaves one of them then starts
+/// on the other, too, and rounding decides whether it hits it.
 bool has_twins(const Scene& scene)
 {
     std::set<std::string> places;
@@ -120,18 +135,14 @@ bool has_twins(const Scene& scene)
     return false;
 }
 
-/// The pictures of a group; `values` gets that of its first way.
-std::optional<SoakFinding> check_group(const Scene& scene, const SoakGroup& group, bool twins,
-                                       Values& values)
+/// Compares the pictures of a group; `values` receives that of its first way.
+std::optional<SoakFinding> check_group(const Scene& scene, const SoakGroup& group, Values& values)
 {
     const SoakWay& first = group.ways.front();
     values = picture(scene, first);
     if (std::string what = not_a_number(scene, values); !what.empty())
         return finding_of_one(std::move(what), first);
     for (const SoakWay& way : group.ways) {
-        // It counts whether the later twin was left out.
-        if (twins && way.options.force_general)
-            continue;
         std::string what = compare(scene, first, values, way, picture(scene, way));
         if (!what.empty())
             return finding_of_two(std::move(what), first, way);
@@ -139,13 +150,13 @@ std::optional<SoakFinding> check_group(const Scene& scene, const SoakGroup& grou
     return std::nullopt;
 }
 
-/// The scalar kernel twice: the picture that counts, and one in another precision that tells
-/// which pixels hang on the last digits.
+/// The scalar kernel in two precisions. Where both pictures agree, rounding does not decide.
 struct References {
     SoakWay truth;
     SoakWay other;
-    double agree;   ///< where both differ by less, relative to the largest value, a pixel counts
-    double differ;  ///< and must not be off by more
+    // Relative to the largest value:
+    double agree;   ///< a value counts if the two differ by at most this
+    double differ;  ///< and is off if it differs from the truth by more than this
 };
 
 References references_of(Precision precision, SelfHits self_hits)
@@ -156,12 +167,12 @@ References references_of(Precision precision, SelfHits self_hits)
             single ? 3e-2 : 1e-4};
 }
 
-/// Edges and paths through much glass are left out, as the references differ there, but for a few
-/// that are a rounding away from being left out.
+/// What is wrong with a picture's values compared with the references; empty for nothing. Edges and
+/// paths through much glass do not count, as the references differ there.
 std::string off_reference(const Scene& scene, const Values& values, const Values& truth,
                           const Values& other, const References& references)
 {
-    const double unit = std::max(largest_value(truth), 1e-30);
+    const double unit = std::max(largest_value(truth), least_unit);
     std::size_t counted = 0;
     std::size_t off = 0;
     std::size_t where = 0;
@@ -174,10 +185,10 @@ std::string off_reference(const Scene& scene, const Values& values, const Values
         if (off++ == 0)
             where = i;
     }
-    // Where the references differ, rounding chooses the colour. Of two it may choose the same for
-    // both, about as often as not: then the picture may have the other.
-    const std::size_t left_out = values.size() - counted;
-    const std::size_t allowed = 9 + counted / 50 + left_out;
+    // Where rounding chooses one of two colours, it chooses the same for both references about as
+    // often as not. The value then counts, but the picture may have the other colour.
+    const std::size_t not_counted = values.size() - counted;
+    const std::size_t allowed = always_off + counted / values_an_off + not_counted;
     if (off <= allowed)
         return "";
     return std::to_string(off) + " of " + std::to_string(counted) +
@@ -195,7 +206,7 @@ std::string off_reference_again(const Scene& scene, const SoakWay& way,
 std::optional<SoakFinding> check_reference(const Scene& scene, const SoakWay& way,
                                            const Values& values, SelfHits self_hits)
 {
-    // The note's own rule, which the scalar kernel follows, shades in an object's own space.
+    // By note 004 the scalar kernel shades in an object's own space, which kernels do not.
     if (scene.illumination == Illumination::shader)
         return std::nullopt;
     const References references = references_of(way.precision, self_hits);
@@ -217,16 +228,19 @@ std::optional<SoakFinding> check_mode(const Scene& scene, Precision precision, A
 {
     Values first;
     Values values;
-    const std::vector<SoakGroup> groups = packet_groups(precision, accuracy, self_hits);
     const bool twins = has_twins(scene);
-    for (const SoakGroup& group : groups) {
-        if (auto finding = check_group(scene, group, twins, values))
+    const std::vector<SoakGroup> groups = packet_groups(precision, accuracy, self_hits);
+    for (SoakGroup group : groups) {
+        // Special kernels prune the later of two twins, the general kernel does not.
+        if (twins)
+            std::erase_if(group.ways, [](const SoakWay& way) { return way.options.force_general; });
+        if (auto finding = check_group(scene, group, values))
             return finding;
         if (first.empty())
             first = values;
     }
-    // By the note's rule, starts are 0.001 away: that counts where things are small. Where things
-    // touch and run along each other, rounding decides, in every kernel its own.
+    // By the note's rule rays start 0.001 away, which matters for small objects. In aligned scenes
+    // rounding decides, differently in each kernel.
     if (accuracy == Accuracy::fast || groups.empty() || twins || self_hits == SelfHits::note ||
         aligned)
         return std::nullopt;

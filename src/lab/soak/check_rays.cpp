@@ -9,18 +9,19 @@
 #include <algorithm>
 #include <cmath>
 
-// What answers to rays promise: the same bits in every way of a group; of `exact` packets and
-// packets of doubles, to be right wherever double itself can tell.
+// The promises about answers to rays: the same bits in every way of a group; and from `exact`
+// packets and packets of doubles, the right answer wherever double can decide.
 namespace packtrace::lab {
 namespace {
 
 constexpr int rays_of_a_scene = 48;
 
-/// The truth of a ray among many objects takes long.
+/// Scenes of more objects get fewer rays, because their truth takes long.
 constexpr int rays_among_many = 8;
 constexpr std::size_t many_objects = 30;
 
-/// `step` is that of the grid that both ends lie on; 0 for none.
+/// A random ray from the camera, from a surface or from anywhere. `step` is that of the grid on
+/// which both ends lie; 0 for none.
 StressRay any_ray(StressRandom& random, const Scene& scene, double step)
 {
     const auto any_point = [&] {
@@ -46,7 +47,7 @@ StressRay any_ray(StressRandom& random, const Scene& scene, double step)
         ray.dir[random.below(3)] = 0.0;
     ray.t_min = 0.0;
     ray.t_max = random.below(4) == 0 ? glm::length(aim - org) * random.between(0.5, 1.5) : no_end;
-    // Some aim at a point that they start at.
+    // Some rays aim at their own origin.
     if (!(glm::length(ray.dir) > 0.0) || !std::isfinite(glm::length(ray.dir)))
         ray.dir = random.unit();
     return ray;
@@ -68,10 +69,12 @@ StressGroup group_of(Scene scene, std::vector<StressRay> rays)
 template <class Real>
 StressRun run_way(const SoakWay& way, const StressGroup& group)
 {
-    return run_subject<Real>({"packet", "", way.options.isa, true, way.options}, group);
+    const StressSubject subject{
+        .kernel = "packet", .isa = way.options.isa, .exact = true, .options = way.options};
+    return run_subject<Real>(subject, group);
 }
 
-/// Whether two ways answered a ray alike, but for how many hits there are.
+/// Whether two ways gave the same answers to a ray, except for the number of hits.
 bool same_first_hit(const StressRun& a, const StressRun& b, std::size_t i)
 {
     StressRun one;
@@ -81,7 +84,7 @@ bool same_first_hit(const StressRun& a, const StressRun& b, std::size_t i)
     return same_answers(one, other) && a.occluded[i] == b.occluded[i] && a.first[i] == b.first[i];
 }
 
-/// How many hits a ray has in truth, behind the first as well.
+/// The true number of hits of a ray.
 std::size_t true_crossings(const StressGroup& group, const StressRay& ray)
 {
     std::vector<TrueHit> hits;
@@ -91,17 +94,17 @@ std::size_t true_crossings(const StressGroup& group, const StressRay& ray)
         std::count_if(hits.begin(), hits.end(), [](const TrueHit& hit) { return hit.exists; }));
 }
 
-/// What is wrong with the answer to a ray, wherever double can tell.
+/// What is wrong with the answer to a ray, wherever double can decide; empty for nothing.
 template <class Real>
 std::string fault_in(const StressGroup& group, const StressRun& run, std::size_t i)
 {
-    // Packets of doubles may be a few last places off where double does not decide.
+    // Where double does not decide, packets of doubles may be a few last places off.
     if (sizeof(Real) == sizeof(double) && !group.expected[i].decided(double_band))
         return "";
     Evaluation evaluation(roundoff_of<Real>);
     evaluate_ray(evaluation, group, run, i);
     Errors errors = evaluation.errors();
-    // Doubles are not refined, and 1 of 100 normals may be off.
+    // One normal in 100 may be off. Hits in double are not refined, so t may be off as well.
     errors.normal_beyond = 0;
     if (sizeof(Real) == sizeof(double))
         errors.t_beyond = 0;
@@ -109,8 +112,8 @@ std::string fault_in(const StressGroup& group, const StressRun& run, std::size_t
     return *fault == '\0' ? "" : example_text(group, 0, i, run.answers[i], fault);
 }
 
-/// Whether a ray's answer must be the same in all ways. In single precision alone boxes hold
-/// only hits that it can place: what it makes up of bodies below its resolution may differ.
+/// Whether a ray's answer must be the same in all ways. In `fast` mode boxes hold only hits that
+/// single precision can place; false hits of bodies smaller than its rounding may differ.
 template <class Real>
 bool counts(const SoakWay& way, const StressGroup& group, const StressRun& run, std::size_t i)
 {
@@ -123,9 +126,9 @@ bool counts(const SoakWay& way, const StressGroup& group, const StressRun& run, 
                Verdict::right;
 }
 
-/// Whether a ray runs along a polygon, so that double's roundings move its hit by more than those
-/// of single precision do a point there, out of the polygon's box: a list may answer a hit that a
-/// hierarchy has not.
+/// Whether a ray runs along a polygon. Then rounding in double may move its hit by more than
+/// rounding a point to single precision, out of the polygon's box: a list may give a hit that a BVH
+/// has not.
 bool runs_along_polygon(const StressGroup& group, const StressRay& ray)
 {
     const double length = glm::length(ray.dir);
@@ -138,14 +141,14 @@ bool runs_along_polygon(const StressGroup& group, const StressRay& ray)
             return true;
         const double distance = std::abs(static_cast<double>(hits.front().t)) * length;
         if (double_band * hits.front().spread * length >
-            0x1p-24 * (glm::length(ray.org) + distance))
+            roundoff_of<float> * (glm::length(ray.org) + distance))
             return true;
     }
     return false;
 }
 
-/// Whether two ways answered a ray otherwise, where `first` answered it with `run`. Hits behind the
-/// first one count where `first` has as many as there are.
+/// Whether the answers to a ray, `run` by way `first` and `other` by way `second`, differ where
+/// they must not. The number of hits counts only if that of `first` is right.
 template <class Real>
 bool differs(const SoakWay& first, const SoakWay& second, const StressGroup& group,
              const StressRun& run, const StressRun& other, std::size_t i)
@@ -189,12 +192,12 @@ std::optional<SoakFinding> check_group(const StressGroup& group, const SoakGroup
 {
     const SoakWay& first = ways.ways.front();
     const StressRun run = run_way<Real>(first, group);
-    const bool held = first.options.accuracy == Accuracy::exact && !aligned;
-    for (std::size_t i = 0; i < group.rays.size() && held; ++i)
+    const bool must_be_right = first.options.accuracy == Accuracy::exact && !aligned;
+    for (std::size_t i = 0; i < group.rays.size() && must_be_right; ++i)
         if (std::string what = fault_in<Real>(group, run, i); !what.empty())
             return one_way<Real>(std::move(what), group.rays[i], first);
     for (const SoakWay& way : ways.ways) {
-        // One kernel answers rays of the caller's own, on the caller's thread.
+        // A caller's own rays have one kernel only.
         if (way.options.force_general)
             continue;
         const StressRun other = run_way<Real>(way, group);
@@ -211,7 +214,7 @@ std::optional<SoakFinding> check_precision(const Scene& scene, const std::vector
 {
     const StressGroup group = group_of<Real>(scene, rays);
     for (const Accuracy accuracy : {Accuracy::exact, Accuracy::fast}) {
-        // Packets of doubles are the same in both.
+        // In double both are the same.
         if (precision_of<Real> == Precision::double_ && accuracy == Accuracy::fast)
             continue;
         for (const SoakGroup& ways : packet_groups(precision_of<Real>, accuracy, SelfHits::exact))

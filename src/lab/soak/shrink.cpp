@@ -10,17 +10,18 @@
 namespace packtrace::lab {
 namespace {
 
-/// So often a scene is tried at most.
+/// At most this many changed scenes are tried, because a slow scene could take hours.
 constexpr int most_tries = 3000;
 
-/// Keeps what still shows the finding.
+/// Makes a scene smaller, change by change, and keeps the changes with which the finding still
+/// shows.
 class Shrinker {
 public:
     Shrinker(SoakFinding& finding, Scene scene) : finding_(finding), scene_(std::move(scene))
     {
     }
 
-    /// Until a round changes nothing.
+    /// Tries all changes until none is kept.
     Scene run()
     {
         for (bool changed = true; changed && tries_ < most_tries;) {
@@ -35,6 +36,7 @@ public:
     }
 
 private:
+    /// Whether the finding shows in a changed scene, which then is kept.
     bool keep(const Scene& changed)
     {
         if (tries_++ >= most_tries)
@@ -52,7 +54,7 @@ private:
         }
     }
 
-    /// Makes a change to a copy; one that changes nothing returns false.
+    /// Tries a change on a copy; `change` returns false if it changed nothing.
     template <class Change>
     bool attempt(const Change& change)
     {
@@ -60,7 +62,7 @@ private:
         return change(changed) && keep(changed);
     }
 
-    /// Runs of them, ever shorter ones, down to `least` that must stay.
+    /// Removes runs of things, ever shorter ones; at least `least` things stay.
     template <class Things>
     bool remove_some(std::vector<Things> Scene::*list, std::size_t least)
     {
@@ -139,7 +141,7 @@ private:
         return changed;
     }
 
-    /// White, and of its model's defaults.
+    /// Makes it white, with the defaults of its model.
     static bool make_plain(Material& material)
     {
         const bool colored = put(material.color, Rgb(1.0));
@@ -160,7 +162,7 @@ private:
         return std::equal(x, x + sizeof a, y);
     }
 
-    /// To three digits.
+    /// Rounds to three digits.
     static bool round_number(double& number)
     {
         char text[32];

@@ -15,10 +15,13 @@
 namespace packtrace::lab {
 namespace {
 
-/// Scenes that are traced side by side.
+/// Scenes that are checked in parallel, between two looks at the time.
 constexpr std::uint64_t batch = 32;
 
-/// What became of a scene.
+/// One scene in so many is checked by the notes' rule for self-hits, which is there for comparison.
+constexpr std::uint64_t scenes_by_note = 5;
+
+/// The result for a scene.
 struct Outcome {
     bool refused = false;
     std::optional<SoakFinding> finding;
@@ -41,8 +44,7 @@ Outcome outcome_of(std::uint64_t seed, bool aligned)
     try {
         outcome.scene = as_read(made);
         const std::uint64_t rays = random.bits();
-        // The notes' own rule is for comparison: it is tried now and then.
-        const SelfHits self_hits = rays % 5 == 0 ? SelfHits::note : SelfHits::exact;
+        const SelfHits self_hits = rays % scenes_by_note == 0 ? SelfHits::note : SelfHits::exact;
         outcome.finding = check_scene(outcome.scene, self_hits, rays, aligned);
     } catch (const SceneError&) {
         outcome.refused = true;
@@ -52,12 +54,13 @@ Outcome outcome_of(std::uint64_t seed, bool aligned)
     return outcome;
 }
 
-/// The number of scenes in the next batch; 0 where there is no time or none is left.
+/// The limits of a search.
 class Limit {
 public:
     explicit Limit(const SoakOptions& options) : options_(options), start_(Clock::now())
     {
     }
+    /// The number of scenes in the next batch; 0 if no time or no scene is left.
     [[nodiscard]] std::uint64_t next(std::uint64_t done) const
     {
         if (options_.seconds > 0.0 && seconds_since(start_) >= options_.seconds)
@@ -75,7 +78,7 @@ SoakReport report_of(std::uint64_t number, Outcome outcome)
 {
     SoakReport report{number, *std::move(outcome.finding), {}};
     report.scene = shrink(report.finding, std::move(outcome.scene));
-    // The rays' truth is that of rounded numbers.
+    // The truth of rays is that of the rounded scene.
     if (report.finding.ray && report.finding.ways.front().precision == Precision::single)
         round_to_precision<float>(report.scene);
     return report;

@@ -8,11 +8,23 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 namespace packtrace::lab {
 namespace {
 
-constexpr int quadric_kinds = 7;  // general ones have coefficients of their own
+// Shares and ranges below are choices of the search: they make each feature frequent, and none
+// needed.
+
+constexpr int quadric_kinds = 7;  // all but the general one
+
+/// Exponents go up to the largest one of the notes, that of note 001's ground sphere.
+constexpr double most_shininess = 1000.0;
+
+/// The radius of a ground sphere, in units of the scene, as in note 001; and how far below the
+/// middle of the scene its centre is, in radii.
+constexpr double ground_radius = 5000.0;
+constexpr double ground_depth = 1.0006;
 
 bool chance(StressRandom& random, double share)
 {
@@ -36,7 +48,8 @@ double any_ior(StressRandom& random)
 
 double any_shininess(StressRandom& random)
 {
-    return chance(random, 0.3) ? static_cast<double>(random.below(40)) : random.power(0.1, 1000.0);
+    return chance(random, 0.3) ? static_cast<double>(random.below(40))
+                               : random.power(0.1, most_shininess);
 }
 
 void fill(StressRandom& random, ScratchMaterial& model)
@@ -92,16 +105,15 @@ Material any_material(StressRandom& random, Illumination illumination)
     return material;
 }
 
-/// A vector of any direction, `scale` to 10^5 times as long. Its numbers are drawn one after the
-/// other, as all are here: arguments of one call are evaluated in an order that each compiler
-/// chooses.
+/// A vector of any direction, `scale` to 10^5 times as long. Random numbers are drawn in separate
+/// statements, here and below, because compilers evaluate the arguments of a call in any order.
 Vec3 any_way(StressRandom& random, double scale)
 {
     const Vec3 direction = random.unit();
     return scale * random.power(1.0, 1e5) * direction;
 }
 
-/// Sizes of a scene's things: mostly of one order, in some scenes of any.
+/// Sizes of a scene's objects: mostly of one order of magnitude, in some scenes of any.
 class Sizes {
 public:
     explicit Sizes(StressRandom& random)
@@ -145,20 +157,19 @@ Quadric any_quadric(StressRandom& random)
     return quadric;
 }
 
-/// A regular outline in the plane of two vectors.
+/// A regular polygon in the plane of two vectors.
 std::vector<Vec3> ring(StressRandom& random, const Vec3& center, const Vec3& u, const Vec3& v)
 {
     const int count = 3 + random.below(6);
     std::vector<Vec3> corners;
     for (int i = 0; i < count; ++i) {
-        const double turn = 6.2831853071795862 * i / count;
+        const double turn = 2.0 * std::numbers::pi * i / count;
         corners.push_back(center + std::cos(turn) * u + std::sin(turn) * v);
     }
     return corners;
 }
 
-/// Its corners share a plane z = const, so that they are flat to the last digit; a transform turns
-/// it.
+/// Its corners lie in a plane z = const, so that it is exactly flat; a transform turns it.
 Polygon any_polygon(StressRandom& random, double size)
 {
     Polygon polygon;
@@ -211,7 +222,7 @@ Object any_body(StressRandom& random, const Sizes& sizes)
     return object;
 }
 
-/// The same again, or a sphere that touches the one before.
+/// The same object again, or a sphere that touches the one before.
 Object any_neighbour(StressRandom& random, const Object& before)
 {
     Object object = before;
@@ -224,13 +235,14 @@ Object any_neighbour(StressRandom& random, const Object& before)
     return object;
 }
 
-/// A sphere so large that it is nearly a plane, as many a scene stands on.
+/// A ground sphere: so large that it is nearly a plane.
 Object ground_below(const Object& first, const Sizes& sizes, StressRandom& random)
 {
     Object ground{.material = first.material};
     ground.material.checker.reset();
-    const double radius = 5000.0 * sizes.scale();
-    ground.surface = Sphere{sizes.point(random, 0.0) - Vec3(0.0, 1.0006 * radius, 0.0), radius};
+    const double radius = ground_radius * sizes.scale();
+    ground.surface =
+        Sphere{sizes.point(random, 0.0) - Vec3(0.0, ground_depth * radius, 0.0), radius};
     return ground;
 }
 
@@ -274,7 +286,7 @@ void add_lights(StressRandom& random, const Sizes& sizes, Scene& scene)
 void add_camera(StressRandom& random, const Sizes& sizes, Scene& scene)
 {
     Camera& camera = scene.camera;
-    // Some stand inside a body.
+    // Some cameras are inside a body.
     camera.position = sizes.point(random, chance(random, 0.2) ? 1.0 : 8.0);
     const Vec3 up = random.unit();
     camera.rotation = look_at(camera.position, sizes.point(random, 1.5), up);
@@ -316,7 +328,7 @@ Vec3 point_near(StressRandom& random, const Object& object)
         const auto& corners = polygon->contours[0];
         const auto others = static_cast<int>(corners.size()) - 2;
         const auto corner = static_cast<std::size_t>(2 + random.below(others));
-        // Next to no edge: rounding decides what a ray at one hits.
+        // Not next to an edge, where rounding decides what a ray hits.
         const Vec3 middle = 0.5 * (corners[1] + corners[corner]);
         own = glm::mix(corners[0], middle, random.between(0.03, 1.3));
     } else {

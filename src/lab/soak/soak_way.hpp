@@ -10,7 +10,7 @@
 // The ways in which a scene is traced.
 namespace packtrace::lab {
 
-/// How many threads make some of the pictures.
+/// Threads of half of the ways to render.
 inline constexpr int soak_threads = 3;
 
 /// A way to trace rays: precision and options.
@@ -19,7 +19,7 @@ struct SoakWay {
     RenderOptions options;
 };
 
-/// The options of `packtrace intersect` that ask for it, where the answer is to be to rays.
+/// The options of `packtrace intersect` for a way.
 [[nodiscard]] inline std::string intersect_words(const SoakWay& way)
 {
     const RenderOptions& options = way.options;
@@ -33,7 +33,7 @@ struct SoakWay {
     return words + (options.self_hits == SelfHits::note ? " --self-hits note" : "");
 }
 
-/// Those of `packtrace render`.
+/// The options of `packtrace render` for a way.
 [[nodiscard]] inline std::string render_words(const SoakWay& way)
 {
     std::string words = intersect_words(way);
@@ -55,7 +55,7 @@ struct SoakWay {
 
 /// Ways that must give the same bits.
 struct SoakGroup {
-    std::vector<SoakWay> ways;  ///< the first is the plainest
+    std::vector<SoakWay> ways;  ///< the first has the fewest options
 };
 
 [[nodiscard]] inline bool has_fused_operations(const IsaInfo& isa)
@@ -78,9 +78,9 @@ struct SoakGroup {
     return ways;
 }
 
-/// Packets of one precision and accuracy through every instruction set here, list and hierarchy,
-/// special and general kernel, one thread and several: sets with fused multiply-add in one group,
-/// each other one in its own.
+/// All ways with packets of one precision and accuracy: every instruction set of this machine,
+/// lists and BVH, special and general kernel, one thread and several. Instruction sets with fused
+/// multiply-add form one group, each other one a group of its own.
 [[nodiscard]] inline std::vector<SoakGroup> packet_groups(Precision precision, Accuracy accuracy,
                                                           SelfHits self_hits)
 {

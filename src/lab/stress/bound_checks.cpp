@@ -7,12 +7,15 @@
 namespace packtrace::lab {
 namespace {
 
-/// What 113 bits cannot tell: there the truth is no judge.
+/// Hits with a smaller margin cannot be decided in 113 bits.
 constexpr double truth_band = 0x1p-98;
+
+/// The error of the truth: of t, and of its change by rounding the inputs.
+constexpr double truth_rounding = 0x1p-104;
 
 using Hits = std::vector<const TrueHit*>;
 
-/// The hits that there are of an object; none where 113 bits do not tell for sure what there is.
+/// The true hits of an object; none where 113 bits cannot decide which there are.
 Hits true_hits_of(const Expected& expected, std::int32_t object)
 {
     Hits hits;
@@ -39,7 +42,7 @@ public:
                                                      std::ldexp(0x1p-52, std::ilogb(t))));
     }
 
-    /// Bounds of all hits of one object.
+    /// Checks the bounds of all hits of one object.
     void check_all(const Hits& hits, const std::vector<HitBounds>& bounds)
     {
         if (hits.size() == bounds.size()) {
@@ -47,7 +50,7 @@ public:
                 check(*hits[i], bounds[i]);
             return;
         }
-        // Some were not found, or found twice, or are none: of those nothing needs to hold any.
+        // The kernel lost some hits, found some twice, or found false ones, whose bounds are empty.
         const bool may_be_empty = bounds.size() > hits.size();
         if (may_be_empty)
             for (const TrueHit* hit : hits) {
@@ -73,8 +76,7 @@ public:
 private:
     static bool holds(const HitBounds& bounds, const TrueHit& hit)
     {
-        // The truth is rounded, too.
-        const Wide slack = Wide(hit.spread) * 0x1p-104 + magnitude(hit.t) * 0x1p-104;
+        const Wide slack = Wide(hit.spread) * truth_rounding + magnitude(hit.t) * truth_rounding;
         return bounds.low <= hit.t + slack && bounds.high >= hit.t - slack;
     }
 

@@ -11,11 +11,15 @@
 namespace packtrace::lab {
 namespace {
 
-/// t may be wrong by its inputs' rounding times this.
+/// t may be wrong by this many times the error by rounding the inputs.
 constexpr double condition_slack = 4.0;
 
-/// What a component of a normal is within.
+/// The allowed error of a component of a normal.
 constexpr double allowed_normal_error = 1e-6;
+
+/// Two t differ if they are this many roundoffs apart, and two normals this many.
+constexpr double t_roundoffs = 4.0;
+constexpr double normal_roundoffs = 16.0;
 
 bool finite(const Answer& answer)
 {
@@ -27,15 +31,15 @@ double distance_of(const Wide& t, const Answer& answer)
     return std::abs(static_cast<double>(Wide(answer.t) - t));
 }
 
-/// The answer has the right object: is it the other hit rather than the expected one? By t, where
-/// t tells the two apart in the answer's precision, else by the normal.
+/// For an answer with the right object: whether it is the other hit rather than the expected one.
+/// It is decided by t if the two t differ in the answer's precision, else by the normal.
 bool is_other(const Expected& expected, const TrueHit& other, const Answer& answer, double roundoff)
 {
     const double gap = std::abs(static_cast<double>(other.t - expected.t));
-    if (gap > 4.0 * roundoff * std::abs(static_cast<double>(expected.t)))
+    if (gap > t_roundoffs * roundoff * std::abs(static_cast<double>(expected.t)))
         return distance_of(other.t, answer) < distance_of(expected.t, answer);
     const Vec3 normal = narrow(other.normal);
-    return largest_component(normal - expected.normal) > 16.0 * roundoff &&
+    return largest_component(normal - expected.normal) > normal_roundoffs * roundoff &&
            largest_component(answer.normal - normal) <
                largest_component(answer.normal - expected.normal);
 }
@@ -50,7 +54,8 @@ bool has_wrong_root(const Expected& expected, const Answer& answer, double round
     });
 }
 
-/// Of a ray inside the band: whether inputs that are off by no more than it make the answer right.
+/// The verdict where the expected hit is not decided: right if a change of the inputs within the
+/// band makes the answer right.
 Verdict verdict_in_band(const Expected& expected, const Answer& answer, double band,
                         double roundoff)
 {
@@ -154,8 +159,8 @@ void Evaluation::measure(const StressRay& ray, const Expected& expected, const A
     errors_.normal.push_back(static_cast<float>(off));
     errors_.normal_beyond += off > allowed_normal_error;
     const double cosine = glm::dot(answer.normal, ray.dir) / glm::length(ray.dir);
-    const double told = 4.0 * roundoff_ + double_band * expected.normal_spread;
-    errors_.wrong_side += cosine * expected.cosine < 0.0 && std::abs(expected.cosine) > told;
+    const double uncertainty = 4.0 * roundoff_ + double_band * expected.normal_spread;
+    errors_.wrong_side += cosine * expected.cosine < 0.0 && std::abs(expected.cosine) > uncertainty;
 }
 
 void Evaluation::add_occluded(const Expected& expected, bool occluded)

@@ -7,10 +7,10 @@
 #include <string>
 #include <vector>
 
-// Holds answers against the truth.
+// Compares answers with the truth.
 namespace packtrace::lab {
 
-/// What an answer is, held against the one expected hit.
+/// The result of comparing an answer with the expected hit.
 enum class Verdict {
     right,
     lost,          ///< a miss where there is a hit
@@ -19,12 +19,12 @@ enum class Verdict {
     wrong_root     ///< another hit of the right object, such as its far side
 };
 
-/// Decided alone by what differs by more than `band`. Where the expected hit itself is inside the
-/// band, the answer may be any of those that might be right.
+/// Compares an answer with the expected hit. If changes of the inputs within `band` change the
+/// expected hit, any answer is right that would be right after such a change.
 [[nodiscard]] Verdict verdict_of(const Expected& expected, const Answer& answer, double band,
                                  double roundoff);
 
-/// How often, and how far, a kernel's answers are from the truth.
+/// How many of a kernel's answers are wrong, and the sizes of their errors.
 struct Errors : ErrorCounts {
     std::vector<float> ulp;     ///< errors of t in units of its last place
     std::vector<float> normal;  ///< largest errors of a component of a unit normal
@@ -37,7 +37,7 @@ struct Errors : ErrorCounts {
     void add(const Errors& other);
 };
 
-/// Holds the answers of a kernel with unit roundoff `roundoff` against what is expected.
+/// Compares the answers of a kernel with unit roundoff `roundoff` with the expected ones.
 class Evaluation {
 public:
     explicit Evaluation(double roundoff) : roundoff_(roundoff)
@@ -45,11 +45,11 @@ public:
     }
 
     void add(const StressRay& ray, const Expected& expected, const Answer& answer);
-    /// What any-hit said of a ray.
+    /// The any-hit answer.
     void add_occluded(const Expected& expected, bool occluded);
-    /// The first of all hits of a ray, as the object's number, beside its closest hit.
+    /// The objects of the first of all hits and of the closest hit.
     void add_first_of_all(const Expected& expected, std::int32_t first, std::int32_t closest);
-    /// How many hits a ray has that starts inside a closed body.
+    /// The number of hits; checked for rays that start well inside or outside a closed body.
     void add_crossings(const Expected& expected, std::size_t count);
 
     [[nodiscard]] const Errors& errors() const
@@ -65,19 +65,17 @@ private:
     Errors errors_;
 };
 
-// What is wrong with the answers to single rays, in words.
-
-/// Whether the closest hits are the same, bit for bit.
+/// Whether the closest hits have the same bits.
 [[nodiscard]] bool same_answers(const StressRun& a, const StressRun& b);
 
-/// The answers to one ray of a scene, held against what is expected.
+/// Adds all answers to ray `i` of a group.
 void evaluate_ray(Evaluation& evaluation, const StressGroup& group, const StressRun& run,
                   std::size_t i);
 
-/// What is wrong with the answers to one ray, in a word or two; empty where nothing is.
+/// The fault of the answers to one ray, in a few words; empty for none.
 [[nodiscard]] const char* fault_of(const Errors& one);
 
-/// Which ray it is, what it should hit, and what was said.
+/// A sentence with the fault, the ray, the expected hit, and the answer.
 [[nodiscard]] std::string example_text(const StressGroup& group, std::size_t scene, std::size_t ray,
                                        const Answer& answer, const char* fault);
 

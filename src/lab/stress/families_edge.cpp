@@ -8,14 +8,13 @@
 namespace packtrace::lab {
 namespace {
 
-constexpr double full_turn = 6.2831853;
-
 Quadric crossing(const Vec3& square)
 {
     return {.coefficients = {square.x, square.y, square.z, 0, 0, 0, 0, 0, 0, 0}};
 }
 
-/// Rays at the edge where x = ±z meet, turned any way; past it by 1e-12 to 1e-3, or through it.
+/// The planes x = ±z in a random placement, and rays past their edge by 1e-12 to 1e-3, or through
+/// it.
 StressCase crossing_planes(StressRandom& random)
 {
     const Mat4 transform = sometimes_placed(random, 0.3, 2.0);
@@ -47,7 +46,7 @@ Quadric capped(QuadricKind kind, double low, double high)
     return quadric;
 }
 
-/// Every kind that caps make a closed body of.
+/// A quadric of any kind that is a closed body with caps.
 Quadric any_capped(StressRandom& random)
 {
     switch (random.below(8)) {
@@ -70,7 +69,7 @@ Quadric any_capped(StressRandom& random)
     }
 }
 
-/// The point of a quadric's side at height z, that way round.
+/// The point of a quadric's side at height z and an angle around the z axis.
 Vec3 side_point(const Quadric& quadric, double z, double angle)
 {
     const auto& k = quadric.coefficients;
@@ -86,15 +85,14 @@ Vec3 side_point(const Quadric& quadric, double z, double angle)
 Vec3 rim_point(StressRandom& random, const Quadric& quadric)
 {
     const ZRange& range = *quadric.z_range;
-    return side_point(quadric, random.below(2) == 0 ? range.low : range.high,
-                      random.between(0.0, full_turn));
+    return side_point(quadric, random.below(2) == 0 ? range.low : range.high, random.angle());
 }
 
 Vec3 inside_point(StressRandom& random, const Quadric& quadric)
 {
     const ZRange& range = *quadric.z_range;
     const double z = range.low + (range.high - range.low) * random.between(0.02, 0.98);
-    const Vec3 side = side_point(quadric, z, random.between(0.0, full_turn));
+    const Vec3 side = side_point(quadric, z, random.angle());
     const double share = 0.98 * std::sqrt(random.between(0.0, 1.0));
     return {share * side.x, share * side.y, z};
 }
@@ -109,7 +107,7 @@ StressCase rim_from_outside(StressRandom& random)
     });
 }
 
-/// Half of the rays at the rim.
+/// Rays from inside a capped quadric; half of them aim at its rims.
 StressCase closed_body(StressRandom& random)
 {
     const Quadric quadric = any_capped(random);
@@ -131,7 +129,7 @@ StressCase known_rim()
                                    no_end});
 }
 
-/// A start well off the cone and the plane that touches it along the ray's way.
+/// A ray origin well off the cone x² + y² = z² and off its tangent plane that contains `way`.
 Vec3 off_cone(StressRandom& random, const Vec3& way)
 {
     for (;;) {
@@ -145,8 +143,8 @@ Vec3 off_cone(StressRandom& random, const Vec3& way)
     }
 }
 
-/// Rays that are parallel to a side of a cone to the last digit, in whole numbers or with two equal
-/// ones: a is nothing but 0, though x² and y² - z² may be rounded.
+/// Rays exactly parallel to a cone's side, with whole numbers or two equal numbers as directions: a
+/// is exactly 0, though x² and y² - z² may be rounded.
 StressCase cone_generators(StressRandom&)
 {
     StressCase result;
@@ -176,16 +174,15 @@ std::vector<StressFamily> edge_families()
          "at the edge of two crossing planes, past it by 0 to 1e-3",
          crossing_planes,
          {known_edge}},
-        {"rims-outside",
-         "at the rims of every capped kind, from outside",
-         rim_from_outside,
-         {},
-         true},
-        {"closed-bodies",
-         "out of every capped kind, half of the rays at the rims",
-         closed_body,
-         {known_rim},
-         true},
+        {.name = "rims-outside",
+         .what = "at the rims of every capped kind, from outside",
+         .make = rim_from_outside,
+         .closed = true},
+        {.name = "closed-bodies",
+         .what = "out of every capped kind, half of the rays at the rims",
+         .make = closed_body,
+         .known = {known_rim},
+         .closed = true},
         {"cone-generators", "parallel to the sides of a cone to the last digit", cone_generators},
     };
 }

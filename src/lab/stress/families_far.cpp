@@ -5,11 +5,11 @@
 
 #include <cmath>
 
-// What is small, thin or huge, seen from afar.
+// Small, thin and huge objects, seen from far away.
 namespace packtrace::lab {
 namespace {
 
-/// Both meetings of a ray with it are the same number in single precision.
+/// A sphere so small and far away that both hits of a ray have the same t in single precision.
 StressCase tiny_sphere(StressRandom& random)
 {
     const double distance = random.power(1.0, 1e4);
@@ -33,7 +33,7 @@ Quadric slab()
     return {.coefficients = {0, 0, 1, 0, 0, 0, 0, 0, 0, -1}};
 }
 
-/// Rays from afar at the middle of a thin thing that lies across one axis.
+/// Rays from far away at the middle of a quadric that is thin along one axis.
 StressCase thin(StressRandom& random, const Quadric& quadric, double least, double most)
 {
     const double half = random.power(least, most);
@@ -57,14 +57,14 @@ StressCase known_pancake()
     return known_case({pancake}, {{0, 0, 0}, {1e-3, 2e-3, 1}, 0.0, no_end});
 }
 
-/// Between two planes, along them but for a little, to far away.
+/// Long rays between two planes, nearly along them.
 StressCase inside_slab(StressRandom& random)
 {
     const Mat4 turn = random.below(4) == 0
                           ? glm::rotate(Mat4(1.0), glm::radians(30.0), Vec3(1, 0, 0))
                           : any_turn(random);
     return placed(slab(), turn, [](StressRandom& r) {
-        const double angle = r.between(0.0, 6.2831853);
+        const double angle = r.angle();
         const Vec3 org(r.between(-2.0, 2.0), r.between(-2.0, 2.0), r.between(-0.9, 0.9));
         const double rise = r.sign() * r.power(1e-6, 1.0);
         return ray_towards(org, org + Vec3(std::cos(angle), std::sin(angle), rise));
@@ -73,12 +73,12 @@ StressCase inside_slab(StressRandom& random)
 
 Vec3 horizontal(StressRandom& random)
 {
-    const double turn = random.between(0.0, 6.2831853);
+    const double turn = random.angle();
     return {std::cos(turn), 0.0, std::sin(turn)};
 }
 
-/// From a height over a ground sphere, whose top is the origin, to between below and a little
-/// past the horizon.
+/// From a height over a ground sphere, whose top is the origin, to points from below the eye to a
+/// little past the horizon.
 StressRay to_ground(StressRandom& random, double radius, double height)
 {
     const double horizon = std::acos(radius / (radius + height));
@@ -143,7 +143,7 @@ StressCase known_lights()
     return result;
 }
 
-/// A few things around the origin, seen through a lens from ten thousand units away.
+/// A few objects around the origin, seen through a lens from ten thousand units away.
 StressCase telephoto(StressRandom& random)
 {
     const Vec3 eye = 1e4 * random.unit();
@@ -167,7 +167,7 @@ StressCase telephoto(StressRandom& random)
     return result;
 }
 
-/// Past a sphere's or an ellipsoid's edge by next to nothing, from near and far.
+/// Past the silhouette of a sphere or an ellipsoid by very little, from near and far.
 StressCase silhouette(StressRandom& random)
 {
     const Vec3 stretch = random.below(2) == 0 ? Vec3(1.0) : any_stretch(random, 0.1);
@@ -197,7 +197,7 @@ StressCase known_silhouette()
                        no_end});
 }
 
-/// Nearly along the axis: the second meeting is as far away as 1e18.
+/// Nearly along the axis: the second hit is as far away as 1e18.
 StressCase far_paraboloid(StressRandom& random)
 {
     const Mat4 transform = sometimes_placed(random, 0.5, 2.0);

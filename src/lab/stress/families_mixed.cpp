@@ -5,11 +5,11 @@
 
 #include <cmath>
 
-// Odd rays and odd company: lengths and ranges of any size, twins, nests, crowds of every kind.
+// Directions and ray intervals of any size, and scenes of twins, nested objects and crowds.
 namespace packtrace::lab {
 namespace {
 
-/// A quadric of any kind, with a place of its surface that rays can aim at.
+/// A quadric of any kind, and a source of points on its surface for rays to aim at.
 struct AnyQuadric {
     Object object;
     std::function<Vec3(StressRandom&)> point;
@@ -33,7 +33,7 @@ AnyQuadric any_quadric(StressRandom& random, double size, const Vec3& to)
     return result;
 }
 
-/// A sphere or a quadric and rays at it and past it.
+/// A sphere or a quadric with rays at it and past it, which `change` alters.
 StressCase one_object(StressRandom& random, double size, const Vec3& to,
                       const std::function<void(StressRandom&, StressRay&)>& change)
 {
@@ -56,7 +56,7 @@ StressCase one_object(StressRandom& random, double size, const Vec3& to,
     return result;
 }
 
-/// t counts in lengths of the direction.
+/// Directions of any length; t counts in their lengths.
 StressCase lengths(StressRandom& random)
 {
     return one_object(random, random.power(0.1, 10.0), random.box(3.0),
@@ -65,7 +65,7 @@ StressCase lengths(StressRandom& random)
                       });
 }
 
-/// The aim is at t = 1: ranges begin or end, or both, next to it.
+/// Rays aim at t = 1. Their intervals begin or end, or both, next to it.
 StressCase range_ends(StressRandom& random)
 {
     return one_object(random, random.between(0.5, 2.0), random.box(3.0),
@@ -78,7 +78,7 @@ StressCase range_ends(StressRandom& random)
                       });
 }
 
-/// Some components of the rays are 0, or next to nothing.
+/// Rays with components that are 0 or very small.
 StressCase vanishing(StressRandom& random)
 {
     return one_object(random, random.between(0.5, 2.0), Vec3(0.0),
@@ -94,14 +94,14 @@ StressCase vanishing(StressRandom& random)
                       });
 }
 
-/// Small things far from the origin, rays next to them.
+/// Small objects far from the origin, with rays next to them.
 StressCase far_details(StressRandom& random)
 {
     return one_object(random, random.power(3e-2, 10.0), 1e6 * random.unit(),
                       [](StressRandom&, StressRay&) {});
 }
 
-/// Stretched by very different sizes along its axes.
+/// Quadrics stretched by very different factors along their axes.
 StressCase flat_axes(StressRandom& random)
 {
     const QuadricKind kind = random.pick(every_kind);
@@ -113,7 +113,7 @@ StressCase flat_axes(StressRandom& random)
     });
 }
 
-/// The same object several times, and a little larger once.
+/// The same object three times.
 StressCase twins(StressRandom& random)
 {
     StressCase result = one_object(random, random.between(0.5, 2.0), random.box(3.0),
@@ -123,7 +123,7 @@ StressCase twins(StressRandom& random)
     return result;
 }
 
-/// Spheres in each other that touch at one point, and rays at it from inside and outside.
+/// Nested spheres that touch at one point, and rays at it from inside and outside.
 StressCase nested(StressRandom& random)
 {
     const Vec3 point = random.box(3.0);
@@ -139,7 +139,7 @@ StressCase nested(StressRandom& random)
     return result;
 }
 
-/// Quadrics that cross each other, among spheres and planes: enough for a hierarchy.
+/// Quadrics that intersect each other, among spheres and planes: enough for a BVH.
 StressCase crowd(StressRandom& random)
 {
     StressCase result;
@@ -163,7 +163,7 @@ StressCase crowd(StressRandom& random)
     return result;
 }
 
-/// Spheres and quadrics of 1e-4 to 1e4 that stand in each other's way.
+/// Spheres and quadrics of sizes from 1e-4 to 1e4, which hide each other.
 StressCase all_sizes(StressRandom& random)
 {
     StressCase result;

@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-// Polygons: rays at edges that two share, at corners, past notches and through holes.
+// Polygons: rays at shared edges, at corners, past notches and through holes.
 namespace packtrace::lab {
 namespace {
 
@@ -36,7 +36,7 @@ std::vector<Contour> cube_faces()
     return faces;
 }
 
-/// A point of a contour's edge: a corner in one of four.
+/// A point of a contour: a corner once in four times, else any point of an edge.
 Vec3 at_edge(StressRandom& r, const Contour& contour)
 {
     const auto i = static_cast<std::size_t>(r.below(static_cast<int>(contour.size())));
@@ -45,7 +45,7 @@ Vec3 at_edge(StressRandom& r, const Contour& contour)
     return r.below(4) == 0 ? from : glm::mix(from, to, r.between(0.0, 1.0));
 }
 
-/// Rays at `contour`, seen from `transform`'s side; past it by 1e-12 to 1e-2, or at it.
+/// A ray at a placed contour, or past it by 1e-12 to 1e-2.
 StressRay ray_at_edge(StressRandom& r, const Contour& contour, const Mat4& transform)
 {
     const double off = r.below(4) == 0 ? 0.0 : r.power(1e-12, 1e-2);
@@ -54,7 +54,7 @@ StressRay ray_at_edge(StressRandom& r, const Contour& contour, const Mat4& trans
     return ray_towards(aim + r.between(2.0, 6.0) * r.unit(), aim);
 }
 
-/// A cube of six polygons, its faces joined at shared edges.
+/// A cube of six polygons with shared edges.
 StressCase polygon_cube(StressRandom& random)
 {
     const Mat4 transform = any_placement(random, any_stretch(random, 0.3), random.box(2.0));
@@ -92,7 +92,7 @@ Vec3 in_triangle(StressRandom& r, const Contour& corners)
     return a * corners[0] + b * corners[1] + (1.0 - a - b) * corners[2];
 }
 
-/// Triangles of two long sides, so thin that their normals are what little is left of products.
+/// Triangles so thin that the products of their normals cancel nearly completely.
 StressCase polygon_sliver(StressRandom& random)
 {
     const Vec3 from = random.box(2.0);
@@ -108,7 +108,7 @@ StressCase polygon_sliver(StressRandom& random)
     return result;
 }
 
-/// A triangle, and rays that run so nearly in its plane that they see little but its edge.
+/// A triangle, and rays nearly in its plane.
 StressCase polygon_edge_on(StressRandom& random)
 {
     const Mat4 transform = any_placement(random, any_stretch(random, 0.3), random.box(2.0));

@@ -10,7 +10,7 @@ namespace {
 
 using Kinds = std::vector<QuadricKind>;
 
-/// Rays from a world distance of a few units at the surface and past it.
+/// Rays from a few units away in the world, at the surface and past it.
 StressCase shot_at(StressRandom& random, const Kinds& kinds, const Mat4& transform)
 {
     const QuadricKind kind = random.pick(kinds);
@@ -25,7 +25,7 @@ StressCase shot_at(StressRandom& random, const Kinds& kinds, const Mat4& transfo
     return result;
 }
 
-/// Rays of own space with a direction near `way`, off by `least` to `most`, through `around`.
+/// Rays of own space with directions near `way`, off by 0 or by `least` to `most`, near the middle.
 StressCase along(StressRandom& random, QuadricKind kind, std::function<Vec3(StressRandom&)> way,
                  double least, double most)
 {
@@ -45,7 +45,7 @@ Vec3 axis(StressRandom& random)
 
 Vec3 asymptote(StressRandom& random)
 {
-    const double turn = random.between(0.0, 6.2831853);
+    const double turn = random.angle();
     return {std::cos(turn), std::sin(turn), random.sign()};
 }
 
@@ -57,12 +57,15 @@ StressCase at_apex(StressRandom& random)
     });
 }
 
-StressCase clipped(StressRandom& random, bool capped)
+enum class Ends { open, capped };
+
+/// Of every kind but the saddle.
+StressCase clipped(StressRandom& random, Ends ends)
 {
     const QuadricKind kind = every_kind[static_cast<std::size_t>(random.below(6))];
     Quadric quadric = packtrace::quadric(kind);
     quadric.z_range = ZRange{-0.75, 1.25};
-    quadric.capped = capped;
+    quadric.capped = ends == Ends::capped;
     const Mat4 transform = any_placement(random, any_stretch(random, 0.5), random.box(3.0));
     return placed(quadric, transform, [](StressRandom& r) {
         return ray_towards(r.between(2.0, 6.0) * r.unit(), r.box(1.5));
@@ -82,13 +85,14 @@ StressCase general(StressRandom& random)
     });
 }
 
-/// Half axes 1, 1/100, 1/10 000, in any turn, with a shear and a mirror image half of the time.
+/// Half axes 1, 1/100 and 1/10 000, turned at random.
 StressCase ill_conditioned(StressRandom& random)
 {
     Mat4 transform = any_placement(random, {1.0, 1e-2, 1e-4}, random.box(3.0));
     return shot_at(random, every_kind, transform);
 }
 
+/// Sheared and mirrored.
 StressCase mirrored(StressRandom& random)
 {
     Vec3 stretch = any_stretch(random, 0.1);
@@ -100,7 +104,7 @@ StressCase mirrored(StressRandom& random)
     return shot_at(random, every_kind, transform * shear);
 }
 
-/// One of the two straight lines through a point of the side: the point and a way along it.
+/// A straight line on a saddle or a hyperboloid.
 struct StraightLine {
     Vec3 point;
     Vec3 way;
@@ -114,13 +118,13 @@ StraightLine straight_line(StressRandom& random, QuadricKind kind)
         const double y = random.between(-1.5, 1.5);
         return {{x, y, x * x - y * y}, {1.0, other, 2.0 * (x - other * y)}};
     }
-    const double turn = random.between(0.0, 6.2831853);
+    const double turn = random.angle();
     const double c = std::cos(turn);
     const double s = std::sin(turn);
     return {{c, s, 0.0}, {-s, c, other}};
 }
 
-/// Rays that nearly run along those: a, b and c are all but 0.
+/// Rays nearly along such lines: a, b and c are nearly 0.
 StressCase along_straight_lines(StressRandom& random)
 {
     const QuadricKind kind = random.below(2) == 0 ? QuadricKind::saddle : QuadricKind::hyperboloid;
@@ -157,8 +161,9 @@ std::vector<StressFamily> quadric_families()
     const Kinds ellipsoid = {QuadricKind::ellipsoid};
     return {
         shot_family("quadrics", "every kind, mildly stretched", every_kind, {1.0, 0.7, 0.5}, 0.0),
-        {"clipped", "clipped quadrics", [](StressRandom& r) { return clipped(r, false); }},
-        {"capped", "clipped and capped quadrics", [](StressRandom& r) { return clipped(r, true); }},
+        {"clipped", "clipped quadrics", [](StressRandom& r) { return clipped(r, Ends::open); }},
+        {"capped", "clipped and capped quadrics",
+         [](StressRandom& r) { return clipped(r, Ends::capped); }},
         {"general", "general quadrics", general},
         shot_family("needle", "ellipsoids of 1 by 1/1000 by 1/1000", ellipsoid, {1e-3, 1e-3, 1.0},
                     0.0),

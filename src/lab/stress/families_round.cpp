@@ -27,7 +27,7 @@ StressRay from_outside(StressRandom& random, const Vec3& center, double radius)
     return ray_towards(org, center + 1.3 * radius * random.between(0.0, 1.0) * random.unit());
 }
 
-/// Past the ball's edge by all kinds of small amounts, to both sides.
+/// Past the ball's silhouette by small amounts of any size, on both sides.
 StressRay along_edge(StressRandom& random, const Vec3& center, double radius)
 {
     const Vec3 way = random.unit();
@@ -48,7 +48,7 @@ StressRay from_inside(StressRandom& random, const Vec3& center, double radius)
     return ray_towards(org, org + random.unit());
 }
 
-/// Directions of every length that can be squared.
+/// Directions of every length whose square is a float.
 StressRay any_length(StressRandom& random, const Vec3& center, double radius)
 {
     StressRay ray = from_outside(random, center, radius);
@@ -76,7 +76,7 @@ StressCase far_sphere(StressRandom& random)
     return one_sphere(1e5 * random.unit(), random.between(0.5, 2.0), from_outside);
 }
 
-/// From a little over the ground, down to it and up to the horizon and beyond.
+/// From a little above a ground sphere, to points from below the eye to above the horizon.
 StressCase ground(StressRandom& random, double radius)
 {
     const double top = random.between(-2.0, 0.0);
@@ -84,7 +84,7 @@ StressCase ground(StressRandom& random, double radius)
         {0.0, top - radius, 0.0}, radius, [](StressRandom& r, const Vec3& center, double size) {
             const Vec3 over(r.between(-5.0, 5.0), 0.0, r.between(-5.0, 5.0));
             const Vec3 org = over + Vec3(0.0, center.y + size + r.power(0.01, 30.0), 0.0);
-            const double turn = r.between(0.0, 6.2831853);
+            const double turn = r.angle();
             const double fall = r.sign() < 0 ? r.power(1e-4, 1.0) : r.between(-0.01, 0.3);
             return ray_towards(org, org + Vec3(std::cos(turn), -fall, std::sin(turn)));
         });
@@ -99,7 +99,7 @@ StressRay unit_from_outside(StressRandom& random, const Vec3& center, double rad
     return ray;
 }
 
-/// Everything so large or so small that squares come near the ends of single precision.
+/// A scene so large or so small that squares come near the limits of single precision.
 StressCase scaled_sphere(StressRandom& random, double scale)
 {
     StressCase result =
@@ -108,7 +108,7 @@ StressCase scaled_sphere(StressRandom& random, double scale)
     return result;
 }
 
-/// A plane, and rays that meet it at angles of a sine from `least` to `most`.
+/// A plane, and rays that hit it at angles with tangents from `least` to `most`.
 StressCase plane_at(StressRandom& random, double far, double least, double most)
 {
     const Vec3 normal = random.unit();

@@ -5,9 +5,13 @@
 #include <algorithm>
 #include <cmath>
 
-// Scenes of several spheres: of any sizes and distances, and such as overlap, touch, or nearly tie.
+// Scenes of several spheres: of any size and distance, and spheres that overlap, touch or nearly
+// tie.
 namespace packtrace::lab {
 namespace {
+
+/// Scenes of more spheres are for packet kernels only: kernels without a BVH would take minutes.
+constexpr int most_scalar_spheres = 1000;
 
 /// Note 001's scene from its own eye.
 StressCase four_spheres(StressRandom&)
@@ -61,7 +65,7 @@ StressCase all_scales(StressRandom& random)
     return result;
 }
 
-/// A range that ends just before or just behind the surface.
+/// Ray intervals that end just before or just behind the surface.
 StressCase short_ranges(StressRandom& random)
 {
     const Vec3 center = random.box(3.0);
@@ -93,7 +97,7 @@ Sphere sphere_of(const Object& object)
     return std::get<Sphere>(object.surface);
 }
 
-/// A point of the circle where two spheres cross, on the side of `up` but for a tilt.
+/// A point of the circle where two spheres intersect, roughly on the side of `up`.
 Vec3 crease_point(const Sphere& a, const Sphere& b, const Vec3& up, StressRandom& random)
 {
     const Vec3 way = b.center - a.center;
@@ -107,7 +111,7 @@ Vec3 crease_point(const Sphere& a, const Sphere& b, const Vec3& up, StressRandom
     return a.center + along * axis + height * across_axis;
 }
 
-/// From outside at a place, off it by `least` to `most`, or not at all.
+/// A ray from `org` at a point, or past it by `least` to `most`.
 StressRay near_point(StressRandom& random, const Vec3& org, const Vec3& point, double least,
                      double most)
 {
@@ -118,7 +122,7 @@ StressRay near_point(StressRandom& random, const Vec3& org, const Vec3& point, d
     return ray;
 }
 
-/// A quilt of overlapping spheres, and rays from above at where neighbours cross.
+/// A layer of overlapping spheres, and rays from above at the circles where neighbours intersect.
 StressCase creases(StressRandom& random, int count)
 {
     const int edge = static_cast<int>(std::ceil(std::sqrt(count)));
@@ -141,7 +145,7 @@ StressCase creases(StressRandom& random, int count)
     return result;
 }
 
-/// Two spheres that touch, and rays at where they do.
+/// Two spheres that touch, and rays at their contact.
 StressCase contact(StressRandom& random)
 {
     const Vec3 center = random.box(3.0);
@@ -161,7 +165,7 @@ StressCase contact(StressRandom& random)
     return result;
 }
 
-/// Where a sphere stands a little in the ground, a ray's hits with both are next to each other.
+/// A sphere that stands a little in the ground, and rays whose hits with both are nearly equal.
 StressCase near_tie(StressRandom& random)
 {
     const double ground = random.power(10.0, 1e5);
@@ -188,9 +192,11 @@ StressCase known_tie()
 
 StressFamily crease_family(const char* name, const char* what, int count, int scenes)
 {
-    return {name,        what,  [=](StressRandom& random) { return creases(random, count); },
-            {},          false, scenes,
-            count > 1000};
+    return {.name = name,
+            .what = what,
+            .make = [=](StressRandom& random) { return creases(random, count); },
+            .scenes = scenes,
+            .packets_only = count > most_scalar_spheres};
 }
 
 }  // namespace

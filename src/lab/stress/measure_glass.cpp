@@ -8,13 +8,13 @@
 
 #include <cmath>
 
-// Total internal reflection: from inside a ball of glass, at its critical angle.
+// Total internal reflection: rays from inside a glass ball at the critical angle.
 namespace packtrace::lab {
 namespace {
 
 using reference::dot;
 
-/// The camera looks to where rays meet the surface at the critical angle.
+/// A glass ball and a camera in it that looks to where rays hit the surface at the critical angle.
 template <class Real>
 Scene glass_scene(StressRandom& random)
 {
@@ -37,15 +37,15 @@ Scene glass_scene(StressRandom& random)
     return scene;
 }
 
-/// What becomes of a ray at the surface: truth, and how far it is from being otherwise.
-struct Bend {
-    bool total;
-    double margin;  ///< relative change of the inputs
-    WideVec dir;    ///< refracted, where not total
-    double condition;
+/// The truth about a ray at the surface.
+struct Refraction {
+    bool total;        ///< internal reflection
+    double margin;     ///< relative change of the inputs that changes `total`
+    WideVec dir;       ///< refracted, where not total
+    double condition;  ///< change of `dir` for relative changes 1 of every input
 };
 
-Bend bend_at(const Sphere& sphere, double ior, const RayNode& ray)
+Refraction refraction_of(const Sphere& sphere, double ior, const RayNode& ray)
 {
     const WideVec o = wide(ray.org) - wide(sphere.center);
     const Wide length = square_root(dot(wide(ray.dir), wide(ray.dir)));
@@ -57,19 +57,19 @@ Bend bend_at(const Sphere& sphere, double ior, const RayNode& ray)
     const Wide cosine = dot(normal, d);
     const Wide eta = ior;
     const Wide out2 = 1 - eta * eta * (1 - cosine * cosine);
-    // cos² changes by the direction's and the index' rounding, and as the hit point moves.
+    // cos² changes by rounding the direction and the ior, and because the hit point moves.
     const Wide place = square_root(dot(wide(sphere.center), wide(sphere.center)));
     const Wide moved = (2 * place + square_root(dot(o, o)) + t) / radius;
     const Wide change = 2 * eta * eta * (1 - cosine * cosine + cosine + moved);
-    Bend bend;
-    bend.total = out2 < 0;
-    bend.margin = static_cast<double>(magnitude(out2) / change);
-    if (!bend.total) {
+    Refraction truth;
+    truth.total = out2 < 0;
+    truth.margin = static_cast<double>(magnitude(out2) / change);
+    if (!truth.total) {
         const Wide out = square_root(out2);
-        bend.dir = eta * d + (out - eta * cosine) * normal;
-        bend.condition = static_cast<double>(eta * (2 + moved) + change / (2 * out));
+        truth.dir = eta * d + (out - eta * cosine) * normal;
+        truth.condition = static_cast<double>(eta * (2 + moved) + change / (2 * out));
     }
-    return bend;
+    return truth;
 }
 
 template <class Real>
@@ -78,29 +78,29 @@ void evaluate_glass_tree(const Scene& scene, const RayNode& tree, MeasureRun& ru
     const double roundoff = roundoff_of<Real>;
     const Sphere& sphere = std::get<Sphere>(scene.objects[0].surface);
     const double ior = std::get<GeneralMaterial>(scene.objects[0].material.model).ior;
-    const Bend bend = bend_at(sphere, ior, tree);
+    const Refraction truth = refraction_of(sphere, ior, tree);
     Errors& errors = run.errors;
     ++errors.rays;
-    const bool band = bend.margin < undecided_band * roundoff;
-    errors.undecided += band;
+    const bool undecided = truth.margin < undecided_band * roundoff;
+    errors.undecided += undecided;
     const bool one = tree.children.size() == 1;
     const bool total = one && tree.children[0].kind == RayKind::mirrored;
     run.answers.push_back(total ? 1.0 : 0.0);
-    if (!one || (total != bend.total && !band)) {
+    if (!one || (total != truth.total && !undecided)) {
         ++errors.beyond_own_band;
         return;
     }
-    if (total || bend.total)
+    if (total || truth.total)
         return;
     ++errors.hits;
     const Vec3 dir = tree.children[0].dir;
     run.answers.insert(run.answers.end(), {dir.x, dir.y, dir.z});
     errors.not_finite += !std::isfinite(dir.x + dir.y + dir.z);
-    if (band)
+    if (undecided)
         return;
-    const double error = largest(wide(dir) - bend.dir);
+    const double error = largest(wide(dir) - truth.dir);
     errors.normal.push_back(static_cast<float>(error));
-    errors.rho = std::max(errors.rho, error / (roundoff * bend.condition));
+    errors.rho = std::max(errors.rho, error / (roundoff * truth.condition));
 }
 
 template <class Real>

@@ -14,11 +14,11 @@
 namespace packtrace::lab {
 namespace {
 
-/// Powers below this are a highlight's far foot; their ulp are not counted, as in
+/// Smaller powers are the faint edge of a highlight and are not tested, as in
 /// results/highlight_power.json.
 constexpr double smallest_counted = 1e-4;
 
-/// 113 bits, with a power function.
+/// Numbers of 113 bits with a power function.
 using Exact = boost::multiprecision::cpp_bin_float_quad;
 
 template <class Real>

@@ -16,8 +16,24 @@ using reference::dot;
 
 constexpr int bounces = 12;
 
-/// A tree of so many bounces takes as long as some hundred rays: there are fewer of them.
-constexpr int sparse_trees = 4;
+/// A tree takes as long as some hundred rays, so there is one tree for this many rays.
+constexpr int rays_a_tree = 4;
+
+/// Largest coordinate of the mirrors' positions, roughly.
+constexpr double mirror_place = 10.0;
+
+/// The ray origin offset of single precision and more, in roundoffs (RayRules::start_error).
+constexpr double origin_offset = 64.0;
+
+/// The direction's error by one reflection, in roundoffs.
+constexpr double reflection_error = 8.0;
+
+/// Two mirrors are told apart if their t differ by more than this many times the error of the
+/// place.
+constexpr double well_apart = 8.0;
+
+/// Rays are followed until the error of their place is this large.
+constexpr double largest_error = 1e-2;
 
 Object mirror(Object object)
 {
@@ -30,20 +46,31 @@ Object wall(const Vec3& point, const Vec3& normal)
     return mirror(plane_object(point, normal));
 }
 
-template <class Real>
-Scene mirror_scene(StressRandom& random, bool room)
+enum class Mirrors { room, ball };
+
+/// Six mirrors around `middle`, nearly at right angles.
+std::vector<Object> walls_around(const Vec3& middle, StressRandom& random)
 {
-    Scene scene{.illumination = Illumination::general};
-    const Vec3 middle = random.box(3.0);
-    if (!room)
-        scene.objects = {mirror(sphere_object(middle, random.between(0.5, 5.0)))};
-    for (int axis = 0; room && axis < 3; ++axis)
+    std::vector<Object> walls;
+    for (int axis = 0; axis < 3; ++axis)
         for (const double side : {-1.0, 1.0}) {
             Vec3 normal(0.0);
             normal[axis] = side;
             normal = glm::normalize(normal + 0.1 * random.box(1.0));
-            scene.objects.push_back(wall(middle + random.between(1.0, 3.0) * normal, -normal));
+            walls.push_back(wall(middle + random.between(1.0, 3.0) * normal, -normal));
         }
+    return walls;
+}
+
+template <class Real>
+Scene mirror_scene(StressRandom& random, Mirrors mirrors)
+{
+    Scene scene{.illumination = Illumination::general};
+    const Vec3 middle = random.box(3.0);
+    if (mirrors == Mirrors::room)
+        scene.objects = walls_around(middle, random);
+    else
+        scene.objects = {mirror(sphere_object(middle, random.between(0.5, 5.0)))};
     round_to_precision<Real>(scene);
     scene.camera = measure_camera(middle + random.box(0.2), random.unit(), 1.0);
     scene.width = scene.height = measure_edge;
@@ -51,18 +78,24 @@ Scene mirror_scene(StressRandom& random, bool room)
     return scene;
 }
 
-/// A ray on its way through the room, and how far it may be off after its bounces, in roundoffs:
-/// its place, and its direction.
+/// The true ray after some bounces, and how far a kernel's ray may be off it, in roundoffs.
 struct Path {
     WideVec org;
     WideVec dir;
-    int left = -1;  ///< the object it leaves
-    double place_error = 0.0;
-    double turn_error = 0.0;
+    int left = -1;             ///< the object that it leaves
+    double place_error = 0.0;  ///< of the origin
+    double turn_error = 0.0;   ///< of the direction
 };
 
-/// t of the way to the next hit with one object, and of which bend; 0 for none.
-Wide way_to(const Object& object, int number, const Path& path, WideVec& normal, double& curvature)
+/// The next hit with a mirror.
+struct MirrorHit {
+    Wide t = 0;  ///< 0 for no hit
+    WideVec normal;
+    double curvature = 0.0;
+    int object = -1;
+};
+
+MirrorHit hit_with(const Object& object, int number, const Path& path)
 {
     if (const Sphere* sphere = std::get_if<Sphere>(&object.surface)) {
         const WideVec o = path.org - wide(sphere->center);
@@ -70,16 +103,36 @@ Wide way_to(const Object& object, int number, const Path& path, WideVec& normal,
         const Wide radius = sphere->radius;
         const Wide c = number == path.left ? Wide(0) : Wide(dot(o, o) - radius * radius);
         const Wide t = square_root(b * b - c) - b;
-        normal = (o + t * path.dir) / radius;
-        curvature = 1.0 / sphere->radius;
-        return t;
+        return {t, (o + t * path.dir) / radius, 1.0 / sphere->radius, number};
     }
     const Plane& plane = std::get<Plane>(object.surface);
-    normal = wide(plane.normal);
-    curvature = 0.0;
+    const WideVec normal = wide(plane.normal);
     if (number == path.left)
-        return 0;
-    return dot(normal, wide(plane.point) - path.org) / dot(normal, path.dir);
+        return {};
+    return {dot(normal, wide(plane.point) - path.org) / dot(normal, path.dir), normal, 0.0, number};
+}
+
+/// The closest hit, and the t of the second closest; 0 for none.
+struct ClosestMirrors {
+    MirrorHit first;
+    Wide second = 0;
+};
+
+ClosestMirrors closest_mirrors(const Scene& scene, const Path& path)
+{
+    ClosestMirrors closest;
+    for (int i = 0; i < static_cast<int>(scene.objects.size()); ++i) {
+        const MirrorHit hit = hit_with(scene.objects[static_cast<std::size_t>(i)], i, path);
+        if (!(hit.t > 0))
+            continue;
+        if (closest.first.object >= 0 && hit.t >= closest.first.t) {
+            closest.second = closest.second > 0 && closest.second < hit.t ? closest.second : hit.t;
+            continue;
+        }
+        closest.second = closest.first.t;
+        closest.first = hit;
+    }
+    return closest;
 }
 
 double size_of(const WideVec& v)
@@ -87,50 +140,30 @@ double size_of(const WideVec& v)
     return glm::length(narrow(v));
 }
 
-/// Follows a ray to its next mirror; false where which one that is cannot be told.
+/// Follows a ray to its next mirror; false where its errors may make it hit another one.
 bool bounce(const Scene& scene, Path& path, double roundoff)
 {
-    Wide nearest = 0;
-    Wide second = 0;
-    WideVec normal;
-    double curvature = 0.0;
-    int object = -1;
-    for (int i = 0; i < static_cast<int>(scene.objects.size()); ++i) {
-        WideVec n;
-        double bend = 0.0;
-        const Wide t = way_to(scene.objects[static_cast<std::size_t>(i)], i, path, n, bend);
-        if (!(t > 0))
-            continue;
-        if (object >= 0 && t >= nearest) {
-            second = second > 0 && second < t ? second : t;
-            continue;
-        }
-        second = nearest;
-        nearest = t;
-        normal = n;
-        curvature = bend;
-        object = i;
-    }
-    const double t = static_cast<double>(nearest);
-    const Wide slope = dot(normal, path.dir);
+    const auto [hit, second] = closest_mirrors(scene, path);
+    const double t = static_cast<double>(hit.t);
+    const Wide slope = dot(hit.normal, path.dir);
     const double cosine = std::abs(static_cast<double>(slope));
-    const WideVec P = path.org + nearest * path.dir;
-    // The own places of the mirrors, and of the ray's start, are each off by a rounding, and the
-    // ray begins off its mirror by what RayRules::start_error says.
-    const double lift = path.left < 0 ? 0.0 : 64.0 * size_of(path.org);
-    const double places = size_of(path.org) + size_of(P) + t + 10.0 + lift;
+    const WideVec P = path.org + hit.t * path.dir;
+    // The places of the mirror and of the ray's start are each rounded, and the ray origin is
+    // offset.
+    const double offset = path.left < 0 ? 0.0 : origin_offset * size_of(path.org);
+    const double places = size_of(path.org) + size_of(P) + t + mirror_place + offset;
     path.place_error = (path.place_error + path.turn_error * t + places) / cosine;
-    const bool told =
-        second == 0 || static_cast<double>(second - nearest) > 8.0 * roundoff * path.place_error;
-    path.turn_error += 2.0 * curvature * path.place_error + 8.0;
+    const bool decided = second == 0 || static_cast<double>(second - hit.t) >
+                                            well_apart * roundoff * path.place_error;
+    path.turn_error += 2.0 * hit.curvature * path.place_error + reflection_error;
     path.org = P;
-    path.dir = path.dir - 2 * slope * normal;
-    path.left = object;
-    return told && object >= 0 && path.place_error * roundoff < 1e-2;
+    path.dir = path.dir - 2 * slope * hit.normal;
+    path.left = hit.object;
+    return decided && hit.object >= 0 && path.place_error * roundoff < largest_error;
 }
 
-/// A tree's rays one by one, as far as which mirror they meet can be told; returns how far off
-/// the last of those is, in roundoffs.
+/// Compares a tree's rays with the truth, as long as bounce() decides their mirrors; returns the
+/// error of the last one, in roundoffs.
 template <class Real>
 double evaluate_bounces(const Scene& scene, const RayNode& tree, MeasureRun& run)
 {
@@ -169,19 +202,19 @@ void evaluate_tree(const Scene& scene, const RayNode& tree, MeasureRun& run)
 }
 
 template <class Real>
-StressMeasure::Ask prepared(const StressOptions& options, bool room)
+StressMeasure::Ask prepared(const StressOptions& options, Mirrors mirrors)
 {
     return ask_of_trees<Real>(
-        options.seed, options.rays / sparse_trees,
-        [=](StressRandom& random) { return mirror_scene<Real>(random, room); },
+        options.seed, options.rays / rays_a_tree,
+        [=](StressRandom& random) { return mirror_scene<Real>(random, mirrors); },
         evaluate_tree<Real>);
 }
 
-StressMeasure measure(const char* name, const char* what, bool room)
+StressMeasure measure(const char* name, const char* what, Mirrors mirrors)
 {
     return {name, what, [=](Precision precision, const StressOptions& options) {
                 return with_packet_real(
-                    precision, [&]<class Real>() { return prepared<Real>(options, room); });
+                    precision, [&]<class Real>() { return prepared<Real>(options, mirrors); });
             }};
 }
 
@@ -189,8 +222,8 @@ StressMeasure measure(const char* name, const char* what, bool room)
 
 std::vector<StressMeasure> tree_measures()
 {
-    return {measure("mirror-room", "twelve bounces between six mirrors", true),
-            measure("mirror-ball", "twelve bounces inside a mirrored ball", false)};
+    return {measure("mirror-room", "twelve bounces between six mirrors", Mirrors::room),
+            measure("mirror-ball", "twelve bounces inside a mirrored ball", Mirrors::ball)};
 }
 
 }  // namespace packtrace::lab

@@ -4,6 +4,7 @@
 #include <glm/gtc/matrix_transform.hpp>
 
 #include <cmath>
+#include <numbers>
 #include <utility>
 
 namespace packtrace::lab {
@@ -12,7 +13,7 @@ Vec3 own_surface_point(StressRandom& random, QuadricKind kind)
 {
     if (kind == QuadricKind::ellipsoid)
         return random.unit();
-    const double turn = random.between(0.0, 6.2831853071795862);
+    const double turn = random.between(0.0, 2.0 * std::numbers::pi);
     const double z = random.between(-2.0, 2.0);
     if (kind == QuadricKind::saddle) {
         const double x = random.between(-1.5, 1.5);
@@ -35,7 +36,7 @@ Vec3 own_surface_point(StressRandom& random, QuadricKind kind)
 
 Mat4 any_turn(StressRandom& random)
 {
-    const double angle = random.between(0.0, 6.2831853);
+    const double angle = random.angle();
     return glm::rotate(Mat4(1.0), angle, random.unit());
 }
 

@@ -6,7 +6,7 @@
 #include <functional>
 #include <vector>
 
-// Quadrics of a kind, points of them, and random places for them.
+// Quadrics of a kind, points on them, and random placements.
 namespace packtrace::lab {
 
 /// All but `general`.
@@ -15,12 +15,12 @@ inline const std::vector<QuadricKind> every_kind = {
     QuadricKind::paraboloid, QuadricKind::hyperboloid, QuadricKind::hyperboloid2,
     QuadricKind::saddle};
 
-/// A point of its surface in its own space, within a few units of its middle.
+/// A point on the surface in own space, within a few units of its middle.
 [[nodiscard]] Vec3 own_surface_point(StressRandom& random, QuadricKind kind);
 
 [[nodiscard]] Mat4 any_turn(StressRandom& random);
 
-/// Turned, stretched along its axes, turned again and moved.
+/// Turned, stretched along the axes, turned again and moved.
 [[nodiscard]] Mat4 any_placement(StressRandom& random, const Vec3& stretch, const Vec3& to);
 
 /// The identity half of the time, else any_placement() with stretches from `least` to 1 and a move
@@ -31,7 +31,7 @@ inline const std::vector<QuadricKind> every_kind = {
 
 [[nodiscard]] Vec3 to_world(const Mat4& m, const Vec3& own);
 
-/// A placed quadric and a source of rays in its own space, which are taken to the world.
+/// A placed quadric with rays that `own_ray` makes in own space.
 [[nodiscard]] StressCase placed(const Quadric& quadric, const Mat4& transform,
                                 std::function<StressRay(StressRandom&)> own_ray);
 

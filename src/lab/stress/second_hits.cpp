@@ -1,6 +1,7 @@
 #include "lab/stress/evaluate.hpp"
 #include "lab/stress/stress_random.hpp"
 #include "lab/stress/stress_subject.hpp"
+#include "reference/start.hpp"
 #include <packtrace/intersect.hpp>
 
 #include <glm/geometric.hpp>
@@ -8,29 +9,39 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 
 namespace packtrace::lab {
 namespace {
 
 using reference::dot;
 
-/// Decisions nearer to being otherwise than this are not gone on from.
-constexpr double told_apart = 0x1p-20;
+/// Second rays are traced only if all decisions about them have at least this margin.
+constexpr double decided_margin = 0x1p-20;
 
-/// Among several objects, where the truth takes long, one hit of so many is gone on from.
-constexpr std::size_t sparse = 4;
+/// In scenes of several objects, where the truth takes long, one of so many hits gets a second ray.
+constexpr std::size_t hits_a_second_ray = 4;
 
-/// What a second hit's t may be off by, relative to it.
+/// The allowed relative error of a second hit's t.
 constexpr double second_bound = 1e-6;
 
-/// How many times larger the gradient where a ray starts is than where its own surface is far off
-/// the level of its start.
+/// A second hit with a larger relative error of t is another hit, and so lost.
+constexpr double lost_error = 0.1;
+
+/// The other root is far off the level of the start's equation if the gradient there is this many
+/// times smaller than at the start.
 constexpr int much_steeper = 4;
 
-/// Next to 0 single precision has no number between it and this one.
+/// A chord is shallow if its depth is less than this many times the error of the hit point.
+constexpr double shallow_factor = 4.0;
+
+/// The smallest positive number of single precision.
 constexpr double least_single = 0x1p-149;
 
-/// To either side of the surface, half of them grazing it.
+/// The side of a surface on which a ray leaves it.
+enum class Side { outside, inside };
+
+/// A random direction to either side of the surface; half of them graze it.
 Vec3 any_direction(StressRandom& random, const Vec3& normal)
 {
     const Vec3 along = across(random, normal);
@@ -46,8 +57,7 @@ Vec3 times(const WideVec (&rows)[3], const Vec3& v)
     return sum;
 }
 
-/// By how much -2 b / a changes, relative to it, for relative changes 1 of all that a and b are
-/// made of: their terms over their sums.
+/// The relative change of -2 b / a for relative changes 1 of the inputs of a and b.
 double condition_of_second(const WideSurface& surface, const WideVec& P, const WideVec& d,
                            const Wide& a, const Wide& b)
 {
@@ -60,7 +70,7 @@ double condition_of_second(const WideSurface& surface, const WideVec& P, const W
            glm::dot(v, gradient) / std::abs(static_cast<double>(b));
 }
 
-/// How near a height is to where a surface is clipped, by their sizes.
+/// The distance of a height from the ends of a z range, relative to both.
 double clip_margin(const ZRange& range, double z)
 {
     double margin = std::numeric_limits<double>::infinity();
@@ -70,14 +80,14 @@ double clip_margin(const ZRange& range, double z)
     return margin;
 }
 
-/// Where the ray from P, which counts as of the surface, hits it again; t = 0 for nowhere. The side
-/// that it leaves on says which way it crosses, as for kernels: rounding P may turn a grazing ray.
-TrueHit hit_from(const WideSurface& surface, const WideVec& P, const WideVec& d, bool outside)
+/// The other root of a ray from P, which counts as a point of the surface; t = 0 for none. The side
+/// decides the sign of the slope at P, as in kernels: rounding P may change it for a grazing ray.
+TrueHit hit_from(const WideSurface& surface, const WideVec& P, const WideVec& d, Side side)
 {
     const WideVec v = surface.direction_to_own(d);
     const Wide a = dot(surface.second_order(v), v);
     const Wide size = magnitude(dot(surface.gradient(surface.point_to_own(P)), v));
-    const Wide b = outside ? size : Wide(-size);
+    const Wide b = side == Side::outside ? size : Wide(-size);
     TrueHit hit;
     hit.object = surface.object;
     hit.margin = std::numeric_limits<double>::infinity();
@@ -100,7 +110,8 @@ WideVec world_gradient(const WideSurface& surface, const WideVec& P)
     return surface.covector_to_world(surface.gradient(surface.point_to_own(P)));
 }
 
-/// The point of the surface next to P by Newton's steps; P itself where the first leads no nearer.
+/// The point of the surface next to P by Newton's method; P itself if its first step leads no
+/// nearer.
 WideVec next_on(const WideSurface& surface, const WideVec& P)
 {
     const auto value_at = [&](const WideVec& at) {
@@ -118,30 +129,29 @@ WideVec next_on(const WideSurface& surface, const WideVec& P)
     return at;
 }
 
-/// Where a ray from the rounded point P of the surface hits it again. P counts as of the surface,
-/// and the other end is then on the same level of the equation as P. Where the surface's gradient
-/// is so much smaller there that this is far off the surface, the ray starts at the point of the
-/// surface next to P instead.
-TrueHit own_hit(const WideSurface& surface, const WideVec& P, const WideVec& d, bool outside)
+/// The other root of a ray from the rounded point P. P counts as a point of the surface, and the
+/// other root is then on the same level of the equation as P. If the gradient is so much smaller
+/// there that this level is far off the surface, the ray starts at the point of the surface next to
+/// P instead.
+TrueHit other_root(const WideSurface& surface, const WideVec& P, const WideVec& d, Side side)
 {
-    TrueHit hit = hit_from(surface, P, d, outside);
+    TrueHit hit = hit_from(surface, P, d, side);
     if (hit.t == 0)
         return hit;
     const WideVec near = world_gradient(surface, P);
     const WideVec far = world_gradient(surface, P + hit.t * d);
     if (much_steeper * much_steeper * dot(far, far) >= dot(near, near))
         return hit;
-    return hit_from(surface, next_on(surface, P), d, outside);
+    return hit_from(surface, next_on(surface, P), d, side);
 }
 
-/// A ray that leaves a hit: what its own surface and the rest of the scene have for it.
+/// The truth of a ray that leaves a hit.
 struct Leaving {
-    TrueHit own;
-    /// Where any piece of the own object is hit first; infinite for nowhere.
+    TrueHit own;  ///< the other root of the surface that it starts on
+    /// The least t of a hit with any piece of the object that it starts on; infinite for none.
     double own_object = std::numeric_limits<double>::infinity();
     Expected expected;
-    /// The way below the surface is less than four times what the hit point is off by.
-    bool shallow = false;
+    bool shallow = false;  ///< see shallow_factor
 };
 
 }  // namespace
@@ -165,18 +175,55 @@ struct Secondary {
     std::vector<Leaving> leaving;
 };
 
-/// Whether the answer of primary ray i is the expected hit beyond doubt.
+/// Whether the answer of primary ray i is certainly the expected hit.
 template <class Real>
 bool leaves(const StressGroup& group, const LeftHitColumns<Real>& primary, std::size_t i)
 {
     const Expected& expected = group.expected[i];
-    if (expected.object < 0 || !expected.root_decided(told_apart) || expected.normal == Vec3(0.0))
+    if (expected.object < 0 || !expected.root_decided(decided_margin) ||
+        expected.normal == Vec3(0.0))
         return false;
-    return verdict_of(expected, answer_of(primary, i), double_band, 0x1p-24) == Verdict::right;
+    return verdict_of(expected, answer_of(primary, i), double_band, roundoff_of<float>) ==
+           Verdict::right;
 }
 
-/// Adds a ray from where primary ray i hit, if that is beyond doubt, and what it should hit. It
-/// starts at the hit point as rounded, which is all that is known of it: so does the truth.
+/// The truth of `ray`, which leaves `hit` from `start`; none if a decision about it is too close.
+std::optional<Leaving> leaving_of(const StressGroup& group, const Expected& hit, const Vec3& start,
+                                  const StressRay& ray, Side side, double roundoff)
+{
+    const WideSurface& surface = group.surfaces[static_cast<std::size_t>(hit.object)];
+    const bool others = group.surfaces.size() > 1 || surface.z_range;
+    Leaving leaving;
+    leaving.own.object = hit.object;
+    leaving.own.margin = std::numeric_limits<double>::infinity();
+    if (hit.piece == 0)
+        leaving.own = other_root(surface, wide(start), wide(ray.dir), side);
+    std::vector<TrueHit> hits = others ? group.hits_of(ray) : std::vector<TrueHit>{};
+    std::erase_if(hits, [&](const TrueHit& other) {
+        return other.object == hit.object && other.piece == hit.piece;
+    });
+    hits.push_back(leaving.own);
+    for (const TrueHit& other : hits)
+        if (other.exists && other.object == hit.object)
+            leaving.own_object = std::min(leaving.own_object, static_cast<double>(other.t));
+    leaving.expected = expect(ray, std::move(hits), roundoff);
+    if (others && !leaving.expected.decided(decided_margin))
+        return std::nullopt;
+    return leaving;
+}
+
+/// Whether the chord of a ray that leaves a hit is shallow.
+bool is_shallow(const StressRay& primary, const Expected& hit, const Vec3& start, const Vec3& dir,
+                const TrueHit& own)
+{
+    const WideVec P = wide(primary.org) + hit.t * wide(primary.dir);
+    const double point_error = glm::length(narrow(wide(start) - P));
+    const double depth = static_cast<double>(own.t) * std::abs(glm::dot(dir, hit.normal)) / 4.0;
+    return depth < shallow_factor * point_error;
+}
+
+/// Adds a ray from the hit of primary ray i, if that is certain, and its truth. The truth starts at
+/// the rounded hit point, too, because kernels know no other.
 template <class Real>
 void add_secondary(const StressGroup& group, const LeftHitColumns<Real>& primary, std::size_t i,
                    StressRandom& random, double t_min, Secondary<Real>& secondary)
@@ -189,40 +236,20 @@ void add_secondary(const StressGroup& group, const LeftHitColumns<Real>& primary
         dir[axis] = static_cast<double>(static_cast<Real>(dir[axis]));
     const bool outside = glm::dot(dir, hit.normal) > 0.0;
     const Vec3 start = vector_at(primary.point, i);
-    const Vec3 lifted = vector_at(outside ? primary.outer_start : primary.inner_start, i);
-    const StressRay ray{lifted, dir, t_min, std::numeric_limits<double>::infinity()};
-    const auto own = static_cast<std::size_t>(hit.object);
-
-    const WideSurface& surface = group.surfaces[own];
-    const bool others = group.surfaces.size() > 1 || surface.z_range;
-
-    Leaving one;
-    one.own.object = hit.object;
-    one.own.margin = std::numeric_limits<double>::infinity();
-    if (hit.piece == 0)
-        one.own = own_hit(surface, wide(start), wide(dir), outside);
-    std::vector<TrueHit> hits = others ? group.hits_of(ray) : std::vector<TrueHit>{};
-    std::erase_if(hits, [&](const TrueHit& other) {
-        return other.object == hit.object && other.piece == hit.piece;
-    });
-    hits.push_back(one.own);
-    for (const TrueHit& other : hits)
-        if (other.exists && other.object == hit.object)
-            one.own_object = std::min(one.own_object, static_cast<double>(other.t));
-    one.expected = expect(ray, std::move(hits), roundoff_of<Real>);
-    if (others && !one.expected.decided(told_apart))
+    const Vec3 offset_start = vector_at(outside ? primary.outer_start : primary.inner_start, i);
+    std::optional<Leaving> leaving =
+        leaving_of(group, hit, start, {offset_start, dir, t_min, no_end},
+                   outside ? Side::outside : Side::inside, roundoff_of<Real>);
+    if (!leaving)
         return;
-    const WideVec P = wide(group.rays[i].org) + hit.t * wide(group.rays[i].dir);
-    const double moved = glm::length(narrow(wide(start) - P));
-    const double depth = static_cast<double>(one.own.t) * std::abs(glm::dot(dir, hit.normal)) / 4.0;
-    one.shallow = depth < 4.0 * moved;
-    secondary.rays.add(lifted, dir, t_min);
+    leaving->shallow = is_shallow(group.rays[i], hit, start, dir, leaving->own);
+    secondary.rays.add(offset_start, dir, t_min);
     secondary.starts.add(start, outside ? primary.surface[i] : ~primary.surface[i]);
-    secondary.leaving.push_back(std::move(one));
+    secondary.leaving.push_back(*std::move(leaving));
 }
 
-/// Holds the hit of one secondary ray against what is expected of it; of shallow chords by the
-/// exact rule alone.
+/// Compares the hit of one secondary ray with its truth. By the notes' rule shallow chords do not
+/// count.
 void count(SecondHits& counts, const Leaving& leaving, SelfHits rule, std::int32_t object, double t)
 {
     ++counts.rays;
@@ -237,7 +264,7 @@ void count(SecondHits& counts, const Leaving& leaving, SelfHits rule, std::int32
         return;
     }
     if (object != leaving.expected.object ||
-        (object == own && std::abs(t - expected) > 0.1 * expected + least_single)) {
+        (object == own && std::abs(t - expected) > lost_error * expected + least_single)) {
         ++counts.lost;
         return;
     }
@@ -271,8 +298,8 @@ SecondHits trace_second_hits(const StressSubject& subject, const StressGroup& gr
 
     StressRandom random(group.rays.size());
     Secondary<Real> secondary;
-    const double t_min = rule == SelfHits::note ? 0.001 : 0.0;
-    const std::size_t step = group.surfaces.size() > 1 ? sparse : 1;
+    const double t_min = rule == SelfHits::note ? reference::epsilon<double> : 0.0;
+    const std::size_t step = group.surfaces.size() > 1 ? hits_a_second_ray : 1;
     for (std::size_t i = 0; i < group.rays.size(); i += step)
         add_secondary(group, primary, i, random, t_min, secondary);
     LeftHitColumns<Real> hits(secondary.rays.size());

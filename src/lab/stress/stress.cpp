@@ -15,7 +15,7 @@
 namespace packtrace::lab {
 namespace {
 
-/// Percentile of unsorted values, 0 of none.
+/// Percentile of unsorted values; 0 for no values.
 double percentile(std::vector<float>& values, double share)
 {
     if (values.empty())
@@ -31,7 +31,7 @@ ErrorSpread spread_of(std::vector<float>& errors)
     return {percentile(errors, 0.5), percentile(errors, 0.99), percentile(errors, 1.0)};
 }
 
-/// Of what `of(group)` gives, worked out in parallel and added in order.
+/// The sum of `of(group)` over all groups, computed in parallel and added in order.
 template <class Of>
 auto sum_of_groups(std::size_t groups, const Of& of)
 {
@@ -59,7 +59,8 @@ Errors evaluate_runs(const std::vector<StressGroup>& groups, const std::vector<S
                          [&](std::size_t g) { return evaluate_run<Real>(groups[g], runs[g]); });
 }
 
-/// The first wrong answer: a wrong decision if there is one, else t, a normal or what else is off.
+/// Records the first wrong answer: a wrong decision if there is one, else a wrong t, normal or
+/// other value.
 template <class Real>
 void add_example(StressRow& row, const std::vector<StressGroup>& groups,
                  const std::vector<StressRun>& runs)
@@ -130,19 +131,25 @@ StressRow row_of(const StressSubject& subject, const std::vector<StressGroup>& g
     return row_of(subject, precision_of<Real>, evaluate_runs<Real>(groups, runs), seconds);
 }
 
-/// Adds a row for what each subject's `ask` gives; instruction sets with the `same` answers share
-/// one.
+/// The subjects with packet kernels.
+std::vector<StressSubject> packets_of(std::vector<StressSubject> subjects)
+{
+    std::erase_if(subjects, [](const auto& subject) { return subject.kernel != "packet"; });
+    return subjects;
+}
+
+/// Adds a row for the result of `ask` for each subject. Instruction sets with the `same` answers
+/// share a row.
 template <class Ask, class Same, class MakeRow>
-void add_distinct_rows(const std::vector<StressSubject>& subjects, bool doubles, bool packets_only,
+void add_distinct_rows(const std::vector<StressSubject>& subjects, Precision precision,
                        const Ask& ask, const Same& same, const MakeRow& make_row,
                        std::vector<StressRow>& rows)
 {
     std::vector<std::pair<std::size_t, decltype(ask(subjects[0]))>> answered;
     for (const StressSubject& subject : subjects) {
-        const bool is_packet = subject.kernel == "packet";
-        // Packets of doubles are the same in every mode.
-        const bool in_any_mode = doubles && is_packet;
-        if ((packets_only && !is_packet) || (in_any_mode && subject.mode != subjects.back().mode))
+        // Packets of doubles are the same in every mode: one mode stands for all.
+        const bool in_any_mode = precision == Precision::double_ && subject.kernel == "packet";
+        if (in_any_mode && subject.mode != subjects.back().mode)
             continue;
         auto run = ask(subject);
         const auto twin = std::find_if(answered.begin(), answered.end(), [&](const auto& other) {
@@ -195,21 +202,21 @@ void add_rows(const StressFamily& family, const StressOptions& options,
         return std::equal(a.begin(), a.end(), b.begin(), same_answers);
     };
     add_distinct_rows(
-        subjects, sizeof(Real) == sizeof(double), family.packets_only, ask, same,
+        family.packets_only ? packets_of(subjects) : subjects, precision_of<Real>, ask, same,
         [&](const StressSubject& subject, const std::vector<StressRun>& runs) {
             return row_of<Real>(family, options, subject, groups, runs);
         },
         rows);
 }
 
-/// Whether a is nowhere worse than b, and somewhere better, in wrong answers, error and time.
+/// Whether `a` is better than `b` in wrong answers, error or time, and worse in none.
 bool dominates(const StressRow& a, const StressRow& b)
 {
     const bool not_worse = a.wrong <= b.wrong && a.ulp.p99 <= b.ulp.p99 && a.ns <= b.ns;
     return not_worse && (a.wrong < b.wrong || a.ulp.p99 < b.ulp.p99 || a.ns < b.ns);
 }
 
-/// Of each precision, as their errors count in units of their own.
+/// Rows compete within one precision, as errors count in its ulps.
 void mark_pareto(std::vector<StressRow>& rows)
 {
     for (StressRow& row : rows)
@@ -232,8 +239,8 @@ void add_measured(const StressMeasure& measure, const StressOptions& options, Pr
             row.faults = faults_of_measure(row);
         return row;
     };
-    add_distinct_rows(subjects, precision == Precision::double_, true,
-                      measure.prepare(precision, options), same, make_row, rows);
+    add_distinct_rows(packets_of(subjects), precision, measure.prepare(precision, options), same,
+                      make_row, rows);
 }
 
 void check_families(const StressOptions& options)
@@ -283,14 +290,13 @@ void run_stress(const StressOptions& options,
 std::vector<std::string> chosen_families(const StressOptions& options)
 {
     std::vector<std::string> chosen;
-    // Counts those wanted.
-    int number = -options.first_family;
+    int from_first = -options.first_family;
     for (const StressFamilyInfo& family : list_stress_families()) {
         if (!wanted(options.families, family.name))
             continue;
-        if (number >= 0 && number % options.family_step == 0)
+        if (from_first >= 0 && from_first % options.family_step == 0)
             chosen.push_back(family.name);
-        ++number;
+        ++from_first;
     }
     return chosen;
 }

@@ -22,7 +22,7 @@ void round(Vec3& v)
         round<Real>(v[axis]);
 }
 
-// A plane keeps its unit normal, and a quadric its coefficients.
+// A plane's normal and a quadric's coefficients are not rounded.
 template <class Real>
 void round(Sphere& sphere)
 {

@@ -10,10 +10,10 @@
 
 namespace packtrace::lab {
 
-/// t_max of rays without an end.
+/// t_max of infinite rays.
 inline constexpr double no_end = std::numeric_limits<double>::infinity();
 
-/// A scene and a source of rays that are hard on it.
+/// A scene and a source of rays that are difficult for it.
 struct StressCase {
     Scene scene;
     std::function<StressRay(StressRandom&)> ray;
@@ -24,14 +24,14 @@ struct StressFamily {
     std::string name;
     std::string what;
     std::function<StressCase(StressRandom&)> make;
-    /// The first scenes, if these are known ones.
+    /// Fixed cases, which replace the first scenes.
     std::vector<std::function<StressCase()>> known = {};
-    bool closed = false;  ///< one closed body, which endless rays leave as often as they enter it
+    bool closed = false;  ///< one closed body: infinite rays leave it as often as they enter it
     int scenes = 16;
-    bool packets_only = false;  ///< too many objects for one after the other
+    bool packets_only = false;  ///< too many objects for kernels without a BVH
 };
 
-/// All of them, in the order they are shown.
+/// All families, in the order in which they are shown.
 [[nodiscard]] const std::vector<StressFamily>& stress_families();
 
 [[nodiscard]] std::vector<StressFamily> sphere_families();
@@ -50,13 +50,14 @@ struct StressFamily {
 [[nodiscard]] Object sphere_object(const Vec3& center, double radius);
 [[nodiscard]] Object plane_object(const Vec3& point, const Vec3& normal);
 
-/// A scene of a known finding: its ray, then such as differ from it in their last digits.
+/// The scene of an earlier finding: its ray, then rays that differ from it in their last digits.
 [[nodiscard]] StressCase known_case(std::vector<Object> objects, const StressRay& ray);
 
-/// Any unit vector across `v`.
+/// A random unit vector perpendicular to `v`.
 [[nodiscard]] Vec3 across(StressRandom& random, const Vec3& v);
 
-/// The scene's places, and a ray, as numbers of `Real`: what the truth and the kernels share.
+/// Rounds the numbers that place a scene's objects, or a ray, to `Real`, so that the truth and the
+/// kernels get the same numbers.
 template <class Real>
 void round_to_precision(Scene& scene);
 template <class Real>

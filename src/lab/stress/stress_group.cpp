@@ -10,12 +10,16 @@
 namespace packtrace::lab {
 namespace {
 
-/// From so many objects on, those that a ray passes by far are left out in double.
+/// With more objects, those that a ray surely misses are found in double and skipped.
 constexpr std::size_t many = 8;
 
-/// A line passes by far where it does so by this share of all sizes, ten thousand times what any
-/// band is wide.
+/// A line surely misses a sphere if it misses it by this share of all sizes: ten thousand times the
+/// width of any band.
 constexpr double far_off = 1e-5;
+
+/// A start is well inside or outside a closed body if it is this far from its surface, in the units
+/// of the body's own space.
+constexpr double well_off_surface = 1e-6;
 
 SphereScreen screen_of(const Object& object)
 {
@@ -26,7 +30,7 @@ SphereScreen screen_of(const Object& object)
             far_off * (sphere->radius + glm::length(sphere->center))};
 }
 
-/// A ray that is held against many spheres.
+/// Tests one ray against many spheres.
 class Screen {
 public:
     explicit Screen(const StressRay& ray)
@@ -37,7 +41,7 @@ public:
     {
     }
 
-    /// Where the line enters a sphere at the earliest; infinity where it passes it by far.
+    /// A lower bound of the t at which the line enters a sphere; infinite if it surely misses it.
     [[nodiscard]] double entry(const SphereScreen& sphere)
     {
         if (sphere.radius < 0.0)
@@ -51,14 +55,14 @@ public:
             return no_end;
         const double inner = sphere.radius - slack;
         const bool crosses = inner > 0.0 && across2 < inner * inner;
-        // It leaves the sphere between these two places.
+        // The ray leaves the sphere between these two t, so it surely hits it.
         if (crosses && middle + std::sqrt(inner * inner - across2) > ray_.t_min * length_ &&
             middle + outer < ray_.t_max * length_)
             sure_hit_ = std::min(sure_hit_, (middle + outer) / length_);
         return (middle - outer) / length_;
     }
 
-    /// What is entered behind this is behind a hit that is one beyond doubt.
+    /// An upper bound of the t of the first hit, by the spheres tested so far.
     [[nodiscard]] double sure_hit() const
     {
         return sure_hit_;
@@ -108,7 +112,7 @@ StressGroup stress_group(Scene scene)
 
 namespace {
 
-/// How far a ray's start is inside a closed body, in the body's own space; negative outside.
+/// How deep a ray's start is inside a closed body, in the body's own space; negative outside.
 double depth_inside(const WideSurface& body, const StressRay& ray)
 {
     const WideVec p = body.point_to_own(wide(ray.org));
@@ -131,10 +135,9 @@ StressGroup make_group(const StressFamily& family, std::uint64_t seed, std::size
         round_to_precision<Real>(ray);
         Expected expected = expect(ray, group.hits_of(ray), roundoff_of<Real>);
         if (family.closed && group.surfaces[0].capped) {
-            constexpr double well = 1e-6;
             const double depth = depth_inside(group.surfaces[0], ray);
-            expected.certain = depth > well;
-            expected.even = depth < -well;
+            expected.certain = depth > well_off_surface;
+            expected.even = depth < -well_off_surface;
         }
         group.rays.push_back(ray);
         group.expected.push_back(std::move(expected));

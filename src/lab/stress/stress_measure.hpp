@@ -11,18 +11,18 @@
 #include <string>
 #include <vector>
 
-// Families that ask something else than what a ray hits first.
+// Families that test something other than hits.
 namespace packtrace::lab {
 
-/// What a kernel said, as bare numbers, how wrong that is, and what it took.
+/// A kernel's answers as numbers, their errors, and its time.
 struct MeasureRun {
     Errors errors;
     std::vector<double> answers;
     double seconds = 0.0;
 };
 
-/// A family whose question is not what a ray meets first. In one of packet_precisions it is
-/// prepared once, with the truth, for what asks one packet kernel after the other.
+/// A family that tests something other than hits. `prepare` computes the truth for one of
+/// packet_precisions; the function that it returns is called for each packet kernel.
 struct StressMeasure {
     std::string name;
     std::string what;
@@ -30,7 +30,7 @@ struct StressMeasure {
     std::function<Ask(Precision, const StressOptions&)> prepare;
 };
 
-/// All of them, in the order they are shown.
+/// All measures, in the order in which they are shown.
 [[nodiscard]] std::vector<StressMeasure> stress_measures();
 
 /// Highlights' powers.
@@ -40,11 +40,11 @@ struct StressMeasure {
 /// Deep ray trees.
 [[nodiscard]] std::vector<StressMeasure> tree_measures();
 
-/// Pixels of the scenes that measures of whole ray trees render.
+/// Pixels along each edge of the scenes of which measures take ray trees: one tile.
 inline constexpr int measure_edge = 16;
 
-/// Calls `take(tree)` with the ray tree of each pixel of a scene, row by row, but of no more than
-/// `most`, as packets of `Real` trace it with SelfHits::exact.
+/// Calls `take(tree)` with the ray trees of a scene's pixels, row by row, but of at most `most`, as
+/// packets of `Real` trace them with SelfHits::exact.
 template <class Real, class Take>
 void for_each_tree(const Scene& scene, const StressSubject& subject, int most, const Take& take)
 {
@@ -56,8 +56,8 @@ void for_each_tree(const Scene& scene, const StressSubject& subject, int most, c
         take(trees(pixel % scene.width, pixel / scene.width));
 }
 
-/// Asks about trees of scenes made by `make(random)`, together of up to `trees` or a few more
-/// pixels, by `evaluate(scene, tree, run)`.
+/// Calls `evaluate(scene, tree, run)` for the ray trees of scenes made by `make(random)`: about
+/// `trees` trees, spread evenly over the scenes.
 template <class Real, class Make, class Evaluate>
 [[nodiscard]] StressMeasure::Ask ask_of_trees(std::uint64_t seed, int trees, Make make,
                                               Evaluate evaluate)

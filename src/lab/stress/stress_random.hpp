@@ -8,8 +8,8 @@
 
 namespace packtrace::lab {
 
-/// Numbers for families of rays: the same with every compiler and library (SplitMix64, Steele,
-/// Lea, Flood 2014).
+/// Random numbers that are the same with every compiler and library (SplitMix64, Steele, Lea, Flood
+/// 2014).
 class StressRandom {
 public:
     explicit StressRandom(std::uint64_t seed) : state_(seed)
@@ -27,10 +27,15 @@ public:
     {
         return low + (high - low) * (static_cast<double>(bits() >> 11) * 0x1p-53);
     }
-    /// Of any size from `low` to `high` > 0, each power of ten as likely as another.
+    /// From `low` to `high` > 0, with a uniform logarithm.
     [[nodiscard]] double power(double low, double high)
     {
         return low * std::pow(high / low, between(0.0, 1.0));
+    }
+    /// An angle of a full turn, in radians.
+    [[nodiscard]] double angle()
+    {
+        return between(0.0, 6.2831853);
     }
     [[nodiscard]] double sign()
     {

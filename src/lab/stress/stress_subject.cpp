@@ -13,12 +13,12 @@
 namespace packtrace::lab {
 namespace {
 
-/// Of so many runs the quickest counts; of long ones there are fewer.
+/// The fastest of this many runs counts; no further run starts after this many seconds.
 constexpr int timed_runs = 3;
 constexpr double timed_seconds = 0.02;
 
 template <class Work>
-double quickest(const Work& work)
+double fastest(const Work& work)
 {
     double best = std::numeric_limits<double>::infinity();
     double sum = 0.0;
@@ -40,7 +40,7 @@ StressRun run_ray_scene(const RenderOptions& options, const StressGroup& group)
     const RaysView<Real> rays = columns.view();
     HitColumns<Real> hits(rays.count);
     StressRun run;
-    run.seconds = quickest([&] { scene.closest_hits(rays, hits.view()); });
+    run.seconds = fastest([&] { scene.closest_hits(rays, hits.view()); });
     for (std::size_t i = 0; i < rays.count; ++i)
         run.answers.push_back(answer_of(hits, i));
     run.occluded.resize(rays.count);
@@ -58,7 +58,7 @@ StressRun run_textbook(const StressGroup& group)
     const TextbookScene<Real> scene(group.scene);
     StressRun run;
     run.answers.resize(group.rays.size());
-    run.seconds = quickest([&] {
+    run.seconds = fastest([&] {
         for (std::size_t i = 0; i < group.rays.size(); ++i)
             run.answers[i] = scene.closest_hit(group.rays[i]);
     });
@@ -75,7 +75,11 @@ void add_packets(const StressOptions& options, std::vector<StressSubject>& subje
                 continue;
             const RenderOptions render{
                 .isa = isa.name, .accuracy = mode.accuracy, .traversal = options.traversal};
-            subjects.push_back({"packet", mode.name, isa.name, mode.exact, render});
+            subjects.push_back({.kernel = "packet",
+                                .mode = mode.name,
+                                .isa = isa.name,
+                                .exact = mode.exact,
+                                .options = render});
         }
     }
 }
@@ -86,11 +90,9 @@ std::vector<StressSubject> stress_subjects(const StressOptions& options)
 {
     std::vector<StressSubject> subjects;
     if (wanted(options.kernels, "textbook"))
-        subjects.push_back({"textbook", "", "", false, {}});
-    if (wanted(options.kernels, "scalar")) {
-        const RenderOptions render{.kernel = Kernel::scalar};
-        subjects.push_back({"scalar", "", "", false, render});
-    }
+        subjects.push_back({.kernel = "textbook"});
+    if (wanted(options.kernels, "scalar"))
+        subjects.push_back({.kernel = "scalar", .options = {.kernel = Kernel::scalar}});
     if (wanted(options.kernels, "packet"))
         add_packets(options, subjects);
     return subjects;

@@ -8,14 +8,14 @@
 namespace packtrace::lab {
 namespace {
 
-/// What 99 of 100 normals are within.
+/// The largest error of 99 of 100 normals.
 constexpr double normal_bound = 1e-6;
 
-/// What errors are within, of what the inputs' rounding makes, where no ulp are counted.
+/// The largest error over the error by rounding the inputs, where errors are not counted in ulps.
 constexpr int rho_bound = 4;
 
-/// The same of t: twice as much where products of dot and cross products round by themselves, as
-/// there are no fused operations.
+/// The same for t. Without fused operations products in dot and cross products are rounded, too,
+/// and the bound is twice as large.
 int rho_bound_of_t(const StressRow& row)
 {
     return row.isa == "sse42" ? 2 * rho_bound : rho_bound;
@@ -28,22 +28,22 @@ public:
         if (number > 0)
             list.push_back(std::to_string(number) + " " + what);
     }
-    void hold(bool holds, const std::string& what)
+    void require(bool condition, const std::string& fault)
     {
-        if (!holds)
-            list.push_back(what);
+        if (!condition)
+            list.push_back(fault);
     }
     /// `what` is empty, or ends with a space.
-    void hold_rho(double rho, int bound, const std::string& what)
+    void require_rho(double rho, int bound, const std::string& what)
     {
-        hold(rho <= bound, what + "off by more than " + std::to_string(bound) +
-                               " times what its inputs' rounding makes");
+        require(rho <= bound, what + "off by more than " + std::to_string(bound) +
+                                  " times what its inputs' rounding makes");
     }
 
     std::vector<std::string> list;
 };
 
-/// The families with faults, each once, in their order, and the faults of the first row of each.
+/// The families with faults, in order, each with the faults of its first row.
 std::string faulty_families(const std::vector<StressRow>& rows, Precision precision)
 {
     std::set<std::string> named;
@@ -54,8 +54,8 @@ std::string faulty_families(const std::vector<StressRow>& rows, Precision precis
     return joined(texts, "; ");
 }
 
-/// Where t is off by more than 1 ulp of single precision, or a normal by more than 1e-6, because
-/// double has no more: the families, and how many of their hits.
+/// The families in which t is off by more than 1 ulp of single precision, or a normal by more than
+/// 1e-6, because double is no more exact; and how many of their hits.
 std::string limits_of(const std::vector<StressRow>& rows, Precision precision)
 {
     std::string list;
@@ -71,8 +71,8 @@ std::string limits_of(const std::vector<StressRow>& rows, Precision precision)
     return list.empty() ? "" : ", double itself at its limit in " + list;
 }
 
-std::string verdict_of_precision(const std::vector<StressRow>& rows, Precision precision)
-{
+/// Sums over the rows of one precision that count for the verdict.
+struct Totals {
     std::uint64_t rays = 0;
     std::uint64_t wrong = 0;
     std::uint64_t self_hits = 0;
@@ -81,9 +81,9 @@ std::string verdict_of_precision(const std::vector<StressRow>& rows, Precision p
     std::uint64_t missed = 0;
     std::set<std::string> families;
     std::string mode;
-    for (const StressRow& row : rows) {
-        if (!row.held || row.precision != precision)
-            continue;
+
+    void add(const StressRow& row)
+    {
         mode = row.mode;
         rays += row.rays;
         wrong += row.wrong;
@@ -93,24 +93,34 @@ std::string verdict_of_precision(const std::vector<StressRow>& rows, Precision p
         missed += row.bounds_missed;
         families.insert(row.family);
     }
-    if (families.empty())
+
+    [[nodiscard]] std::string text() const
+    {
+        const std::string of_bounds =
+            std::to_string(missed) + " of " + std::to_string(bounds) + " bounds missed, ";
+        return std::to_string(wrong) + " wrong decisions, " + std::to_string(self_hits) +
+               " self-hits, " + std::to_string(lost) + " second hits lost, " +
+               (bounds == 0 ? "" : of_bounds) + std::to_string(rays) + " rays";
+    }
+};
+
+std::string verdict_of_precision(const std::vector<StressRow>& rows, Precision precision)
+{
+    Totals totals;
+    for (const StressRow& row : rows)
+        if (row.held && row.precision == precision)
+            totals.add(row);
+    if (totals.families.empty())
         return "";
     const std::string name =
-        precision == Precision::single ? mode : std::string(language::word_of(precision));
+        precision == Precision::single ? totals.mode : std::string(language::word_of(precision));
     const std::string bad = faulty_families(rows, precision);
-    const std::string counts =
-        std::to_string(wrong) + " wrong decisions, " + std::to_string(self_hits) + " self-hits, " +
-        std::to_string(lost) + " second hits lost, " +
-        (bounds == 0
-             ? ""
-             : std::to_string(missed) + " of " + std::to_string(bounds) + " bounds missed, ") +
-        std::to_string(rays) + " rays";
+    const std::size_t count = totals.families.size();
     return name +
            (!bad.empty() ? " is WRONG in " + bad
-            : families.size() == 1
-                ? " is right in the family " + *families.begin()
-                : " is right in all " + std::to_string(families.size()) + " families") +
-           " (" + counts + ")" + limits_of(rows, precision);
+            : count == 1 ? " is right in the family " + *totals.families.begin()
+                         : " is right in all " + std::to_string(count) + " families") +
+           " (" + totals.text() + ")" + limits_of(rows, precision);
 }
 
 }  // namespace
@@ -129,14 +139,14 @@ std::vector<std::string> faults_of(const StressRow& row)
     faults.count(row.not_finite, "hits that are no numbers");
     faults.count(row.no_normal, "normals of no length");
     faults.count(row.wrong_side, "normals on the wrong side");
-    // Doubles are not refined: their t is as good as the inputs in double.
+    // Hits in double are not refined: their t is as exact as rounding the inputs allows.
     const bool refined = row.precision == Precision::single;
     faults.count(refined ? row.t_beyond : 0, "t off by more than an ulp");
-    faults.hold(!refined || row.t_beyond_half * 100 <= row.hits,
-                "more than 1 in 100 t off by over 0.51 ulp");
+    faults.require(!refined || row.t_beyond_half * 100 <= row.hits,
+                   "more than 1 in 100 t off by over 0.51 ulp");
     if (!refined)
-        faults.hold_rho(row.rho, rho_bound_of_t(row), "t ");
-    faults.hold(row.normal.p99 <= normal_bound, "normals off by more than 1e-6");
+        faults.require_rho(row.rho, rho_bound_of_t(row), "t ");
+    faults.require(row.normal.p99 <= normal_bound, "normals off by more than 1e-6");
     faults.count(row.self_hits, "self-hits");
     faults.count(row.second_lost, "second hits lost");
     faults.count(row.second_inexact, "second hits off by more than 1e-6");
@@ -150,8 +160,8 @@ std::vector<std::string> faults_of_measure(const StressRow& row)
     Faults faults;
     faults.count(row.beyond_own_band, "wrong");
     faults.count(row.not_finite, "that are no numbers");
-    faults.hold_rho(row.rho, rho_bound, "");
-    faults.hold(!power || row.ulp.max <= 2.0, "powers off by more than 2 ulp");
+    faults.require_rho(row.rho, rho_bound, "");
+    faults.require(!power || row.ulp.max <= 2.0, "powers off by more than 2 ulp");
     return faults.list;
 }
 

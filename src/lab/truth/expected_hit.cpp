@@ -10,7 +10,7 @@ namespace {
 
 constexpr double boundless = std::numeric_limits<double>::infinity();
 
-/// A hit that nearly exists moves when it does; by less than this of its t, or it is far away.
+/// A hit that nearly exists has moved when it does exist, by less than this share of its t.
 constexpr double may_move = 0x1p-10;
 
 /// Relative change of the inputs that brings two hits to one place.
@@ -21,13 +21,43 @@ double margin_of_order(const TrueHit& first, const TrueHit& other)
     return spread > 0.0 ? gap / spread : boundless;
 }
 
-/// Relative change of the inputs after which a hit that does not count would come before the
-/// expected one if it did. A ray along a plane may meet it anywhere.
+/// Relative change of the inputs after which a hit that does not exist would come before the first
+/// one if it did.
 double margin_of_front(const TrueHit& hit, const TrueHit* first)
 {
     if (first == nullptr || hit.t <= first->t * (1.0 + may_move))
         return 0.0;
     return margin_of_order(*first, hit);
+}
+
+void set_hit(const TrueHit& first, const StressRay& ray, Expected& expected)
+{
+    expected.object = first.object;
+    expected.piece = first.piece;
+    expected.t = first.t;
+    expected.normal = narrow(first.normal);
+    expected.cosine =
+        static_cast<double>(reference::dot(first.normal, wide(ray.dir))) / glm::length(ray.dir);
+    expected.condition = first.condition;
+    expected.normal_spread = first.normal_spread;
+    expected.margin = first.margin;
+    expected.root_margin = first.side_margin;
+}
+
+/// Takes the smallest of the margins at which another hit would become the answer.
+void limit_margins(const std::vector<TrueHit>& hits, const TrueHit* first, Expected& expected)
+{
+    for (const TrueHit& hit : hits) {
+        if (&hit == first)
+            continue;
+        if (hit.exists) {
+            double& margin = hit.object == first->object ? expected.root_margin : expected.margin;
+            margin = std::min(margin, margin_of_order(*first, hit));
+        } else {
+            expected.margin =
+                std::min(expected.margin, std::max(hit.margin, margin_of_front(hit, first)));
+        }
+    }
 }
 
 }  // namespace
@@ -48,29 +78,9 @@ Expected expect(const StressRay& ray, std::vector<TrueHit> hits, double roundoff
     const TrueHit* first = found == hits.end() ? nullptr : &*found;
     Expected expected;
     expected.margin = expected.root_margin = expected.end_margin = boundless;
-    if (first != nullptr) {
-        expected.object = first->object;
-        expected.piece = first->piece;
-        expected.t = first->t;
-        expected.normal = narrow(first->normal);
-        expected.cosine = static_cast<double>(reference::dot(first->normal, wide(ray.dir))) /
-                          glm::length(ray.dir);
-        expected.condition = first->condition;
-        expected.normal_spread = first->normal_spread;
-        expected.margin = first->margin;
-        expected.root_margin = first->side_margin;
-    }
-    for (const TrueHit& hit : hits) {
-        if (&hit == first)
-            continue;
-        if (hit.exists) {
-            double& margin = hit.object == first->object ? expected.root_margin : expected.margin;
-            margin = std::min(margin, margin_of_order(*first, hit));
-        } else {
-            expected.margin =
-                std::min(expected.margin, std::max(hit.margin, margin_of_front(hit, first)));
-        }
-    }
+    if (first != nullptr)
+        set_hit(*first, ray, expected);
+    limit_margins(hits, first, expected);
     for (const TrueHit& hit : hits)
         expected.end_margin = std::min(expected.end_margin, std::max(margin_of_end(hit, roundoff),
                                                                      margin_of_front(hit, first)));

@@ -9,8 +9,9 @@ namespace packtrace::lab {
 /// A coordinate in own space is a sum of three products, each rounded up to three times.
 inline constexpr double own_roundings = 3.0;
 
-/// How sensitive a ray is to its inputs: sums of magnitudes, for which double is enough. Inputs
-/// are the ray, the surface's place, its transform, and the ray's start and way in own space.
+/// How much the inputs of a ray change its values, for relative changes 1 of every input: sums of
+/// magnitudes, for which double is enough. Inputs are the ray, the surface's place, its transform,
+/// and the ray's start and way in own space.
 class Sensitivity {
 public:
     Sensitivity(const WideSurface& surface, const StressRay& ray)
@@ -26,7 +27,7 @@ public:
         }
     }
 
-    /// What changes by 1 move at t along the own covector g, whose world form is n.
+    /// The change of the own covector g, whose world form is n, times the point at t.
     [[nodiscard]] double at(const Vec3& g, const Vec3& n, double t, const Vec3& own) const
     {
         const Vec3 way = std::abs(t) * dir_;
@@ -36,14 +37,14 @@ public:
         return sum;
     }
 
-    /// What the roundings of a general quadric's centre, and of the way to it, move along the own
-    /// covector whose world form is n.
+    /// The change by rounding a general quadric's centre and the way to it, along the own covector
+    /// whose world form is n.
     [[nodiscard]] double of_center(const Vec3& n, const Vec3& center) const
     {
         return own_roundings * dot3(n, to_world(center));
     }
 
-    /// What they turn the direction by, along g.
+    /// The change of the direction along g.
     [[nodiscard]] double of_direction(const Vec3& g, const Vec3& n, const Vec3& v) const
     {
         double sum = dot3(n, dir_);
@@ -52,13 +53,13 @@ public:
         return sum;
     }
 
-    /// What they change of the own direction's components, one by one.
+    /// The changes of the own direction's components.
     [[nodiscard]] Vec3 of_components(const Vec3& v) const
     {
         return to_own(dir_ + to_world(v)) + own_roundings * to_own(dir_);
     }
 
-    /// The sums of magnitudes that the transposed inverse makes of a covector.
+    /// The transposed inverse times a covector, in sums of magnitudes.
     [[nodiscard]] Vec3 covector(const Vec3& g) const
     {
         return by_points_ ? g.x * own_[0] + g.y * own_[1] + g.z * own_[2] : g;

@@ -14,7 +14,7 @@ namespace {
 
 using reference::dot;
 
-/// Coefficients around a place of the surface's own.
+/// The coefficients of a surface relative to its position.
 struct Definition {
     std::array<double, 10> coefficients;
     Vec3 place;
@@ -31,7 +31,7 @@ Definition define(const Plane& plane)
     return {{0, 0, 0, 0, 0, 0, n.x, n.y, n.z, 0}, plane.point};
 }
 
-/// The plane; what is inside is decided by the corners.
+/// The polygon's plane; within_edges() decides whether a point is in the polygon.
 Definition define(const Polygon& polygon)
 {
     const Vec3 n = polygon_normal(polygon);
@@ -67,7 +67,7 @@ Real value(const Real (&k)[10], const Vec<Real>& p)
     return second_order(k, p) + k[6] * p.x + k[7] * p.y + k[8] * p.z + k[9];
 }
 
-/// The four places a line can meet a body at, NaN or infinite where it does not.
+/// The four possible hits of a line: two on the side, two on the caps; NaN or infinite for none.
 template <class Real>
 struct Places {
     Real t[4];
@@ -134,7 +134,7 @@ Vec<Real> direction_to_own(const TextbookBody<Real>& body, const Vec<Real>& d)
             m[2][0] * d.x + m[2][1] * d.y + m[2][2] * d.z};
 }
 
-/// By the crossing numbers of a polygon's edges, seen along the axis nearest to its normal.
+/// By the even-odd rule, in the projection along the axis nearest to the polygon's normal.
 template <class Real>
 bool within_edges(const TextbookBody<Real>& body, const Vec<Real>& p)
 {
@@ -154,7 +154,7 @@ bool within_edges(const TextbookBody<Real>& body, const Vec<Real>& p)
     return inside;
 }
 
-/// `which` of the places is on the clipped side or on a cap.
+/// Whether the place number `which` is on the clipped side or on a cap.
 template <class Real>
 bool on_surface(const TextbookBody<Real>& body, const Vec<Real>& p, int which)
 {

@@ -18,8 +18,8 @@ struct TextbookBody {
     std::vector<std::array<Real, 3>> corners;  ///< of a polygon, own space; a pair is an edge
 };
 
-/// What a first book on the subject gives: centre and radius, b² - 4 a c, (-b ± √D) / 2a, a
-/// matrix's inverse applied to points. For comparison only.
+/// The formulas of an introductory textbook: b² - 4 a c, (-b ± √D) / 2a, and a matrix's inverse
+/// applied to points. For comparison only.
 template <class Real>
 class TextbookScene {
 public:

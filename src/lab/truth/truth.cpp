@@ -14,6 +14,9 @@ namespace {
 // Pixels of a cached truth that are traced again.
 constexpr int checked_pixels = 32;
 
+// The fractions of its multiples are spread evenly.
+constexpr double golden_ratio = 0.6180339887498949;
+
 std::filesystem::path file_of(const std::string& key, const std::filesystem::path& cache)
 {
     return cache / (text_hash_digits(key) + ".truth");
@@ -28,15 +31,14 @@ reference::Color<double> color_now(const Scene& scene, int samples, int x, int y
             static_cast<double>(color.z)};
 }
 
-// A reference whose change the key does not show would be found out.
+// Finds changes of the reference that the key does not show.
 bool still_true(const Truth& truth, const Scene& scene, int samples)
 {
     if (truth.image.width != scene.width || truth.image.height != scene.height)
         return false;
     for (int i = 0; i < checked_pixels; ++i) {
-        // Along the diagonals of a grid that visits all columns and rows.
-        const int x = static_cast<int>(
-            (i * 0.6180339887498949 - static_cast<int>(i * 0.6180339887498949)) * scene.width);
+        const double column = i * golden_ratio;
+        const int x = static_cast<int>((column - static_cast<int>(column)) * scene.width);
         const int y = (2 * i + 1) * scene.height / (2 * checked_pixels);
         const auto color = color_now(scene, samples, x, y);
         const double* pixel = truth.image.pixel(x, y);

@@ -14,33 +14,33 @@ namespace packtrace {
 struct Truth {
     Image<double> image;
     std::string what;
-    double seconds = 0.0;  ///< that it took when it was made
-    bool cached = false;   ///< taken from a file
+    double seconds = 0.0;  ///< that rendering it took
+    bool cached = false;   ///< read from a file
 };
 
 struct TruthRequest {
-    int samples = 1;                   ///< a pixel; one is the scene's own
-    std::filesystem::path cache = {};  ///< folder; nothing is kept where empty
+    int samples = 1;                   ///< per pixel; 1 is the scene's own sample
+    std::filesystem::path cache = {};  ///< folder; empty for no cache
     std::function<void(double)> progress = {};
-    std::stop_token stop = {};  ///< as RenderOptions has it
+    std::stop_token stop = {};  ///< see RenderOptions::stop
 };
 
-/// The scalar reference's picture: in long double at one sample a pixel, in double at more. A file
-/// of the cache is used only if it has the key of all that the truth depends on (truth_cache.hpp),
-/// its bytes agree with their checksum, and some of its pixels with what the reference gives now;
-/// else it is made anew. Throws FileError when it can't be kept, and std::invalid_argument for a
-/// scene to be kept that has no text (write_scene.hpp).
+/// The scalar reference's picture: in long double at one sample per pixel, in double at more. A
+/// cached file is used only if it has the key of all that the truth depends on (truth_cache.hpp),
+/// its checksum is right, and some of its pixels equal those of the reference now; else the truth
+/// is made anew. Throws FileError if it cannot be written to the cache, and std::invalid_argument
+/// for a scene that has no text to be its key (write_scene.hpp).
 [[nodiscard]] Truth find_truth(const Scene& scene, const TruthRequest& request);
 
-// The steps of find_truth(), for a truth whose rows are traced by several programs.
+// The steps of find_truth(), for truths whose rows are traced by several programs.
 
-/// A truth of the cache that may be used.
+/// A truth from the cache, if there is a valid one.
 [[nodiscard]] std::optional<Truth> kept_truth(const Scene& scene, const TruthRequest& request);
 
-/// So many rows of a truth from `first` on. They have the bits of the whole truth.
+/// `rows` rows of a truth from row `first` on, with the same bits as in the whole truth.
 [[nodiscard]] Image<double> truth_rows(const Scene& scene, int samples, int first, int rows);
 
-/// Names a truth that was made, and keeps it in the cache.
+/// Sets Truth::what of a new truth, and writes it to the cache.
 void keep_truth(const Scene& scene, const TruthRequest& request, Truth& truth);
 
 }  // namespace packtrace

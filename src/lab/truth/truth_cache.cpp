@@ -105,7 +105,7 @@ std::optional<Truth> read_truth(const std::filesystem::path& file, const std::st
     data.remove_prefix(key_size);
     const auto pixels = static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
     constexpr std::size_t pixel_bytes = 3 * sizeof(double);
-    // Not by multiplying: a file may name sizes whose product is beyond 64 bits.
+    // By division: a file may name sizes whose product overflows.
     if (data.size() % pixel_bytes != 0 || data.size() / pixel_bytes != pixels)
         return std::nullopt;
     truth.image = Image<double>(width, height);

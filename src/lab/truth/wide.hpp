@@ -11,8 +11,8 @@
 
 namespace packtrace::lab {
 
-/// 113 bits: what the results of kernels are held against. The compiler's own take a third of the
-/// time of Boost's, and round alike.
+/// Numbers of 113 bits, in which the truth is computed. The compiler's own type takes a third of
+/// the time of Boost's, and rounds the same.
 using Wide = Quad;
 using WideVec = reference::Vec3<Wide>;
 
@@ -33,7 +33,7 @@ using WideVec = reference::Vec3<Wide>;
     return {Wide(v.x), Wide(v.y), Wide(v.z)};
 }
 
-/// The square root, 0 of what is below 0, also where it is outside double's range.
+/// The square root, also of numbers outside the range of double; 0 for negative numbers.
 [[nodiscard]] inline Wide square_root(const Wide& x)
 {
     if (!(x > 0) || x == std::numeric_limits<double>::infinity())

@@ -6,6 +6,8 @@
 #include <type_traits>
 #include <variant>
 
+// bounds/exact_surface.cpp resembles this file and shares nothing with it on purpose: the truth
+// checks proven bounds in stress tests, and an error in shared code would show in neither.
 namespace packtrace::lab {
 namespace {
 
@@ -60,7 +62,7 @@ void define(WideSurface& surface, const Polygon& polygon)
     surface.by_points = surface.placed;
 }
 
-/// The planes that a x² - b y² = 0 is made of, along any two of the axes; nothing for all else.
+/// The two planes of a x² - b y² = 0, along any two of the axes; nothing for other quadrics.
 std::optional<std::array<WideVec, 2>> crossing_planes(const std::array<double, 10>& k)
 {
     if (std::any_of(k.begin() + 3, k.end(), [](double x) { return x != 0.0; }))
@@ -105,7 +107,7 @@ void invert(const WideVec (&m)[3], WideVec (&inverse)[3])
     inverse[2] = WideVec(columns[0].z, columns[1].z, columns[2].z) / determinant;
 }
 
-/// Where the surface's own place gets to, and where own 0 does.
+/// Takes the magnitudes of the surface's place to the world, and adds those of the offset.
 void carry_place(WideSurface& surface)
 {
     WideVec rows[3];

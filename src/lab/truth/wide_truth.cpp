@@ -14,8 +14,11 @@ using reference::dot;
 
 constexpr double never = std::numeric_limits<double>::infinity();
 
-/// What a polygon's normal, made of its edges' cross products, is rounded by.
+/// A bound of the roundings of a polygon's normal, which is a sum of cross products of edges.
 constexpr double normal_roundings = 8.0;
+
+/// Half values below this share of c are what rounding to 113 bits leaves of 0.
+constexpr double wide_rounding = 0x1p-104;
 
 /// One ray against one surface.
 class Line {
@@ -68,13 +71,15 @@ private:
         return narrow(surface_.covector_to_world(g));
     }
 
-    [[nodiscard]] double reach(const WideVec& g, const Wide& t, const WideVec& own) const
+    /// How much the own covector g times the point at t changes, for relative changes 1 of every
+    /// input.
+    [[nodiscard]] double change_along(const WideVec& g, const Wide& t, const WideVec& own) const
     {
         return sensitivity_.at(narrow(g), to_world(g), narrow(t), narrow(own));
     }
 
-    /// What a general quadric's canonical form adds to `reach`, and to the change of its half
-    /// value: its centre, axes and coefficients, and the ray's start and way in its space.
+    /// What a general quadric's canonical form adds to the change of its half value: by its centre,
+    /// axes and coefficients, and by the ray's start and way in its space.
     [[nodiscard]] double canonical_terms(const Vec3& g, const Wide& t, const WideVec& own) const
     {
         const CanonicalForm& form = *surface_.canonical;
@@ -92,14 +97,15 @@ private:
         return 2.0 * own_roundings * sum;
     }
 
-    /// How much the half value can change at t.
+    /// How much the half value at t changes.
     [[nodiscard]] double change_at(const WideVec& g, const Wide& t, const WideVec& own) const
     {
-        return reach(g, t, own) + (surface_.canonical ? canonical_terms(narrow(g), t, own) : 0.0);
+        return change_along(g, t, own) +
+               (surface_.canonical ? canonical_terms(narrow(g), t, own) : 0.0);
     }
 
-    /// How much the height in own space can change at t. Of a general quadric it is taken from the
-    /// centre of the canonical form, like all else, wherever that is.
+    /// How much the height in own space at t changes. Of a general quadric the height is relative
+    /// to the centre of the canonical form, which may be far away.
     [[nodiscard]] double change_of_height(const Wide& t, const WideVec& own) const
     {
         const WideVec up(0, 0, 1);
@@ -107,10 +113,10 @@ private:
             surface_.canonical
                 ? sensitivity_.of_center(to_world(up), glm::abs(surface_.canonical->center))
                 : 0.0;
-        return reach(up, t, own) + center;
+        return change_along(up, t, own) + center;
     }
 
-    /// How near the quadratic is to losing a root to infinity.
+    /// Relative change of the inputs that makes a vanish, so that a root goes to infinity.
     [[nodiscard]] double margin_of_infinity(const WideVec& second) const
     {
         const double size =
@@ -118,7 +124,7 @@ private:
         return size == 0.0 ? never : std::abs(narrow(a_)) / size;
     }
 
-    /// How near a is to vanishing where none of its terms cancel: all of them must.
+    /// The same where no terms of a cancel: all of them must vanish.
     [[nodiscard]] double margin_of_vanishing(const WideVec& second) const
     {
         const Vec3 size = sensitivity_.of_components(own_dir_);
@@ -130,9 +136,10 @@ private:
         return margin;
     }
 
-    /// How near a ray without a root is to one far away. There a and c have one sign; a change
-    /// that turns a's leaves a root ahead, at any distance. Where no terms of a cancel, as along a
-    /// cylinder, it cannot turn, but can vanish; from there any turn towards the surface hits it.
+    /// Relative change of the inputs that gives a ray without a root one far away. There a and c
+    /// have the same sign; a change of a's sign gives a root ahead, at any distance. Where no terms
+    /// of a cancel, as along a cylinder, its sign cannot change, but a can vanish; then any turn
+    /// towards the surface hits it.
     [[nodiscard]] double margin_of_no_root() const
     {
         if (t_max_ < never || !surface_.by_points)
@@ -144,6 +151,7 @@ private:
         return cancels ? infinity_margin_ : margin_of_vanishing(second);
     }
 
+    /// Relative change of the inputs that makes the ray touch the surface.
     [[nodiscard]] double touching_margin() const
     {
         if (a_ == 0)
@@ -151,13 +159,14 @@ private:
         const Wide t = -b_ / a_;
         const WideVec own = own_at(t);
         const double half_value = narrow((c_ + t * b_) / 2);
-        // Through an apex both this and its change are 0, but for what 113 bits round off.
-        if (std::abs(half_value) <= 0x1p-104 * std::abs(narrow(c_)))
+        // Through an apex both this and its change are 0, up to rounding.
+        if (std::abs(half_value) <= wide_rounding * std::abs(narrow(c_)))
             return 0.0;
         return std::abs(half_value) / change_at(surface_.gradient(own), t, own);
     }
 
-    /// Adds the hit at t, whose own uncertainty is `spread`; `margin` holds so far.
+    /// Adds the hit at t, with the change `spread` of t. `margin` does not consider the start of
+    /// the ray interval yet.
     TrueHit& add(const Wide& t, double spread, const WideVec& normal, bool exists, double margin,
                  std::vector<TrueHit>& found) const
     {
@@ -183,14 +192,17 @@ private:
         return found.back();
     }
 
-    void add_side(const Wide& t, double margin, bool crosses, std::vector<TrueHit>& found) const
+    /// What a place on the side is: a root, or the place where a ray without a root is nearest.
+    enum class Place { root, nearest };
+
+    void add_side(const Wide& t, double margin, Place place, std::vector<TrueHit>& found) const
     {
         const WideVec own = own_at(t);
         const WideVec g = surface_.gradient(own);
         const double slope = std::abs(narrow(dot(g, v_)));
-        // Where the ray only touches, or nearly, t has no first-order uncertainty.
-        const double spread = crosses && slope > 0.0 ? change_at(g, t, own) / slope : 0.0;
-        bool exists = crosses;
+        bool exists = place == Place::root;
+        // Where the ray only touches, or nearly, t has no first-order change.
+        const double spread = exists && slope > 0.0 ? change_at(g, t, own) / slope : 0.0;
         if (surface_.z_range) {
             const double blur = change_of_height(t, own) + std::abs(own_dir_.z) * spread;
             for (const double bound : {surface_.z_range->low, surface_.z_range->high})
@@ -201,8 +213,8 @@ private:
         hit.normal_spread = turn_of_normal(g, t, own, spread);
     }
 
-    /// What changes by 1 turn the normal by: as its point moves along the ray, and as it is made
-    /// of the point's terms.
+    /// How much the normal turns for relative changes 1 of every input: because its point moves
+    /// along the ray, and because it is computed from the point.
     [[nodiscard]] double turn_of_normal(const WideVec& g, const Wide& t, const WideVec& own,
                                         double spread) const
     {
@@ -222,19 +234,20 @@ private:
         const Wide discriminant = b_ * b_ - a_ * c_;
         const double touching = touching_margin();
         if (discriminant < 0) {
-            add_side(-b_ / a_, std::min(touching, margin_of_no_root()), false, found);
+            add_side(-b_ / a_, std::min(touching, margin_of_no_root()), Place::nearest, found);
             return;
         }
         const Wide root = square_root(discriminant);
         const Wide q = b_ < 0 ? Wide(root - b_) : Wide(-root - b_);
         if (q != 0)
-            add_side(c_ / q, touching, true, found);
+            add_side(c_ / q, touching, Place::root, found);
         if (a_ != 0)
-            add_side(q / a_, std::min(touching, infinity_margin_), true, found);
+            add_side(q / a_, std::min(touching, infinity_margin_), Place::root, found);
     }
 
-    /// One of two crossing planes. Every line that is along neither hits both, so that no change
-    /// of the inputs makes a ray miss their edge; but it may make the normal another.
+    /// One of two crossing planes. Every line that is parallel to neither hits both, so that no
+    /// change of the inputs makes a ray miss at their edge, but a change may choose the other
+    /// normal.
     void find_sheet(const WideVec& g, const WideVec& other, std::vector<TrueHit>& found) const
     {
         const Wide slope = dot(g, v_);
@@ -243,17 +256,18 @@ private:
         const Wide t = -dot(g, p_) / slope;
         const WideVec own = own_at(t);
         const double steep = std::abs(narrow(slope));
-        const double spread = reach(g, t, own) / steep;
+        const double spread = change_along(g, t, own) / steep;
         const double turn = sensitivity_.of_direction(narrow(g), to_world(g), own_dir_);
         const Wide side = dot(other, own);
-        TrueHit& hit = add(t, spread, side > 0 ? g : -g, true, steep / turn, found);
-        const double blur = reach(other, t, own) + std::abs(narrow(dot(other, v_))) * spread;
+        constexpr bool exists = true;
+        TrueHit& hit = add(t, spread, side > 0 ? g : -g, exists, steep / turn, found);
+        const double blur = change_along(other, t, own) + std::abs(narrow(dot(other, v_))) * spread;
         hit.side_margin = std::abs(narrow(side)) / blur;
         limit_to_quadratic(hit);
     }
 
-    /// A solver that takes two crossing planes for one quadratic loses digits of a for rays along
-    /// either plane. This widens the error of the other plane's t.
+    /// A solver that treats two crossing planes as one quadratic loses digits of a for rays along
+    /// either plane, and so digits of the other plane's t.
     void limit_to_quadratic(TrueHit& hit) const
     {
         const Vec3 terms = narrow(surface_.second_order(v_) * v_);
@@ -264,8 +278,8 @@ private:
         hit.spread = hit.condition * std::abs(narrow(hit.t));
     }
 
-    /// Where the line hits a polygon's plane; on it or not by the even-odd rule across the line,
-    /// and as far from the other as the nearest edge is, in what changes of the inputs move it by.
+    /// The hit of a polygon's plane. It exists by the even-odd rule across the line. Its margin is
+    /// the distance of the nearest edge over how much a change of the inputs moves the hit.
     void find_polygon(std::vector<TrueHit>& found) const
     {
         const WideVec g = surface_.linear;
@@ -275,7 +289,7 @@ private:
         const Wide t = -(c_ / 2) / slope;
         const WideVec own = own_at(t);
         const double steep = std::abs(narrow(slope));
-        const double spread = reach(g, t, own) / steep;
+        const double spread = change_along(g, t, own) / steep;
         const double turn = sensitivity_.of_direction(narrow(g), to_world(g), own_dir_);
         bool inside = false;
         double margin = steep / turn;
@@ -287,7 +301,7 @@ private:
         hit.normal_spread = normal_roundings;
     }
 
-    /// A point from the line along its largest component, seen along the line.
+    /// P relative to the line, projected along the line's largest component; two coordinates.
     [[nodiscard]] WideVec across(const WideVec& P) const
     {
         const WideVec off = P - p_;
@@ -324,7 +338,7 @@ private:
             unit[axis] = 1;
             const Wide v[3] = {v_.x, v_.y, v_.z};
             unit[widest_] = -v[axis] / v[widest_];
-            blur += reach({unit[0], unit[1], unit[2]}, t, own);
+            blur += change_along({unit[0], unit[1], unit[2]}, t, own);
         }
         return distance / blur;
     }
@@ -356,7 +370,7 @@ private:
     Wide b_ = 0;
     Wide c_ = 0;
     double infinity_margin_ = 0.0;
-    int widest_ = 0;  ///< the largest component of the direction
+    int widest_ = 0;  ///< the axis of the direction's largest component
 };
 
 }  // namespace

@@ -48,7 +48,7 @@ Color<Real> General<Real, Recorder>::intensity(const Ray<Real>& ray, int depth,
     return sum;
 }
 
-// A ray below Scene::min_weight brings nothing. Beyond the depth limit there is none to leave out.
+// A ray below Scene::min_weight brings no light. Beyond the depth limit no ray would be traced.
 template <class Real, class Recorder>
 Color<Real> General<Real, Recorder>::child(const Ray<Real>& ray, int depth,
                                            const RayWeight<Real>& weight) const

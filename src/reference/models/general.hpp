@@ -9,7 +9,7 @@
 
 namespace packtrace::reference {
 
-/// The one equation that all models lower to:
+/// The common equation to which all models are lowered:
 ///     I(ray) = ka A + sum_j s_j I_j (kd max(0, N.L_j) + ks max(0, R_j.V)^n)
 ///              + kr I(reflected) + kt I(refracted)
 /// over the lights j with N.L_j > 0.
@@ -45,7 +45,7 @@ private:
     std::vector<Coefficients> coefficients_;  // by object number
     Glass<Real> glass_;
     GlassStack around_eye_;
-    Color<Real> at_limit_;  // what a ray beyond the depth limit brings
+    Color<Real> at_limit_;  // the colour of a ray beyond the depth limit
 };
 
 }  // namespace packtrace::reference

@@ -25,7 +25,7 @@ template <class Real, class Recorder>
 Color<Real> Note000<Real, Recorder>::intensity(const Ray<Real>& r, int depth,
                                                const RayWeight<Real>& weight) const
 {
-    // `depth` is this call's own copy, so nothing needs to take the one off again.
+    // `depth` is this call's copy, so it need not be decremented again.
     depth = depth + 1;
     if (depth > deepest_)
         return record_.limit(world_.background);
@@ -40,8 +40,8 @@ Color<Real> Note000<Real, Recorder>::intensity(const Ray<Real>& r, int depth,
     const Factors& k = factors_[j];
     const Ray<Real> flec = reflection_ray(r, *at);
 
-    // Total internal reflection, of which the note says nothing, leaves no refraction ray; its
-    // share then goes the mirror's way, so that Ks + Kr = 1 loses no light.
+    // At total internal reflection, of which the note says nothing, there is no refracted ray. Its
+    // share is added to the mirrored ray, so that Ks + Kr = 1 loses no light.
     const auto frac = any_positive(k.Kr) ? glass_.refraction_ray(r, *at) : std::nullopt;
     const Color<Real> mirrored = frac ? k.Ks : k.Ks + k.Kr;
 
@@ -61,7 +61,7 @@ Color<Real> Note000<Real, Recorder>::intensity(const Ray<Real>& r, int depth,
     return spec + refr + record_.local(dull(k, color, *at, flec));
 }
 
-// A ray below Scene::min_weight brings nothing. Beyond the depth limit there is none to leave out.
+// A ray below Scene::min_weight brings no light. Beyond the depth limit no ray would be traced.
 template <class Real, class Recorder>
 Color<Real> Note000<Real, Recorder>::child(const Ray<Real>& ray, int depth,
                                            const RayWeight<Real>& weight) const
@@ -104,7 +104,7 @@ Color<Real> Note000<Real, Recorder>::dull(const Factors& k, const Color<Real>& c
         const Color<Real> lit = record_.share(lsou.number, light_share(world_, glass_, at, way));
         if (!any_positive(lit))
             continue;
-        // Neither cosine may take light away, which the note leaves unsaid.
+        // Not in the note: a negative cosine counts as 0.
         const Real n_dot_l = std::max(dot(at.N, way.L), Real(0));
         const Real flec_dot_l = dot(flec.dir, way.L);
         const Real highlight = flec_dot_l > 0 ? std::pow(flec_dot_l, k.S) : Real(0);

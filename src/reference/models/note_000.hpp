@@ -9,8 +9,8 @@
 
 namespace packtrace::reference {
 
-/// Note 000, the Pascal sketch of a recursive `intensity`, under its names. Where it departs, a
-/// comment says so; docs/reference.md gathers the reasons.
+/// Note 000, the Pascal sketch of a recursive `intensity`, with the note's names. Comments mark the
+/// differences from the note; docs/reference.md gives the reasons.
 template <class Real, class Recorder = NoRecorder>
 class Note000 {
 public:

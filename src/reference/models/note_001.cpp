@@ -34,7 +34,7 @@ Color<Real> Note001<Real, Recorder>::compute_lighting(const Vec3<Real>& P, const
         const Real t_max = is_point ? Real(1) : infinity<Real>;
 
         // The listing kept only the `continue` of its shadow check.
-        if (record_.blocked(light.number, light.casts_shadow && in_shadow(on, P, L, light, t_max)))
+        if (record_.occluded(light.number, light.casts_shadow && in_shadow(on, P, L, light, t_max)))
             continue;
 
         // Diffuse
@@ -61,7 +61,7 @@ bool Note001<Real, Recorder>::in_shadow(const Departure<Real>& on, const Vec3<Re
     if (world_.shadows == ShadowKind::none)
         return false;
     const Start<Real> start = start_at(world_, on.along(L), P);
-    // The note looks for the closest sphere, though any one will do.
+    // The note finds the closest sphere, where any occluder suffices.
     return any_in_way(world_.occluders, start, L, t_max, place_of_light(world_, light));
 }
 

@@ -8,9 +8,9 @@
 
 namespace packtrace::reference {
 
-/// Note 001, the complete pseudocode of the raytracing chapters of "Computer Graphics from
-/// Scratch" (Gambetta), function by function and under its names. Where it departs, a comment
-/// says so; docs/reference.md gathers the reasons.
+/// Note 001, the complete pseudocode of the raytracing chapters of "Computer Graphics from Scratch"
+/// (Gambetta), function by function, with the note's names. Comments mark the differences from the
+/// note; docs/reference.md gives the reasons.
 template <class Real, class Recorder = NoRecorder>
 class Note001 {
 public:
@@ -31,12 +31,12 @@ public:
                                         Real t_max, int depth,
                                         const RayWeight<Real>& weight = {}) const;
 
-    /// The same from where a ray starts by the scene's rule.
+    /// The same from a start by the scene's rule for self-hits.
     [[nodiscard]] Color<Real> trace_ray(const Start<Real>& start, const Vec3<Real>& D, Real t_max,
                                         int depth, const RayWeight<Real>& weight) const;
 
-    /// The light that reaches `P`, per channel. `V` points to where the ray came from; `on` is the
-    /// surface there, which only SelfHits::exact looks at.
+    /// The light that reaches `P`, per channel. `V` points to where the ray came from. `on` is the
+    /// surface that P is on; only SelfHits::exact uses it.
     [[nodiscard]] Color<Real> compute_lighting(const Vec3<Real>& P, const Vec3<Real>& N,
                                                const Vec3<Real>& V, Real s,
                                                const Departure<Real>& on = {}) const;

@@ -34,7 +34,7 @@ Color<Real> Note002<Real, Recorder>::intensity(const Ray<Real>& ray, int depth,
     const Color<Real> color = color_at(world_.paints[object], world_.bodies, at->object, at->P);
     const Color<Real> local = record_.local(lights(k, color, *at, -ray.dir));
 
-    // The note's ray tree has no end of its own. Where ours ends, R and T are left out.
+    // The note has no depth limit. At ours R and T are zero.
     if (depth <= 0)
         return local;
 
@@ -56,7 +56,7 @@ Color<Real> Note002<Real, Recorder>::intensity(const Ray<Real>& ray, int depth,
     return sum;
 }
 
-// A ray below Scene::min_weight brings nothing.
+// A ray below Scene::min_weight brings no light.
 template <class Real, class Recorder>
 Color<Real> Note002<Real, Recorder>::child(const Ray<Real>& ray, int depth,
                                            const RayWeight<Real>& weight) const

@@ -11,7 +11,7 @@ namespace packtrace::reference {
 
 /// Note 002, Whitted's "An Improved Illumination Model for Shaded Display" (1980) as its author
 /// modified it: I = Ia + kd sum(N.Lj) + ks R + kt T with the highlight (Rj.V)^ns, and light
-/// through a transparent occluder. Under the note's names; docs/reference.md gathers departures.
+/// through a transparent occluder. With the note's names; docs/reference.md lists the differences.
 template <class Real, class Recorder = NoRecorder>
 class Note002 {
 public:

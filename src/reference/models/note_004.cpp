@@ -23,7 +23,7 @@ std::pair<Real, Part> intersection(const PlacedBody<Real>& object, const Vec3<Re
     return least;
 }
 
-// The note's object.normalVector, made unit; it does not turn to the viewer, who looks along Td.
+// The note's object.normalVector, made unit; it is not turned to the viewer, who looks along Td.
 template <class Real>
 Vec3<Real> normal_vector(const PlacedBody<Real>& object, const Vec3<Real>& I, Part part,
                          const Vec3<Real>& Td)
@@ -33,7 +33,7 @@ Vec3<Real> normal_vector(const PlacedBody<Real>& object, const Vec3<Real>& I, Pa
     return unit(normal).value_or(-normalize(Td));
 }
 
-// From `I` to the light in the object's own space; a directional light has no end.
+// Direction and distance from `I` to the light in the object's own space.
 template <class Real>
 std::pair<Vec3<Real>, Real> to_light(const PlacedBody<Real>& object, const Vec3<Real>& I,
                                      const LightSource<Real>& light)
@@ -95,7 +95,7 @@ Color<Real> Note004<Real, Recorder>::shader(const Tuple& intersection, const Vec
     const Paint<Real>& paint = world_.paints[static_cast<std::size_t>(k)];
     const Color<Real> c = paint.checkered ? checker_color(paint, I) : paint.color;
     const Color<Real> Li = light.intensity;
-    // Not in the note: an ambient light has no place, and gives what a shadowed one does.
+    // Not in the note: an ambient light has no position, and gives as much as an occluded light.
     if (light.type == LightType::ambient)
         return r[0] * (c * Li);
     const auto [S, distance] = to_light(object, I, light);
@@ -106,18 +106,18 @@ Color<Real> Note004<Real, Recorder>::shader(const Tuple& intersection, const Vec
     const Real Is = std::max(dot(R, V), Real(0));
     Real f = r[0];
     const Departure<Real> on{k, part, unit(object.placement.normal_to_world(N)).value_or(N)};
-    bool blocked = false;
+    bool occluded = false;
     if (light.casts_shadow && world_.self_hits == SelfHits::exact) {
         const Vec3<Real> P =
             on_surface(world_.bodies, {t0, k, part}, object.placement.point_to_world(I),
                        length(e) + t0 * length(d));
-        blocked = shadowed_exactly(on, P, object.placement.vector_to_world(S), light, distance);
+        occluded = shadowed_exactly(on, P, object.placement.vector_to_world(S), light, distance);
     } else if (light.casts_shadow) {
-        blocked = shadowed(object, I, S, distance);
+        occluded = shadowed(object, I, S, distance);
     }
-    if (!record_.blocked(light.number, blocked))
+    if (!record_.occluded(light.number, occluded))
         f = r[0] + r[1] * Id + r[2] * (Is > 0 ? std::pow(Is, r[3]) : Real(0));
-    // r0 is ambient light, which nothing keeps off.
+    // r0 is ambient light, which is never occluded.
     (void)record_.adds((f - r[0]) * (c * Li));
     return f * (c * Li);
 }
@@ -131,11 +131,11 @@ bool Note004<Real, Recorder>::shadowed(const PlacedBody<Real>& shaded, const Vec
     const Vec3<Real> I = shaded.placement.point_to_world(own_I + epsilon<Real> * own_S);
     const Vec3<Real> S = shaded.placement.vector_to_world(own_S);
     for (const PlacedBody<Real>& object : occluders_) {
-        // The note assigns the results to I and S themselves, so that each object would start
-        // from the last one's space; each must start from the world's.
+        // The note assigns the results to I and S themselves, so that each object would start from
+        // the space of the one before. Here each starts from world space.
         const Vec3<Real> Te = object.placement.point_to_own(I);
-        // Nor is S made unit here: t then counts the same in every space, and the way can end
-        // at the light, as "the ray from the intersection point to the light source" does.
+        // S is not made unit here: then t counts the same in every space, and the ray can end at
+        // the light, as "the ray from the intersection point to the light source" does.
         const Vec3<Real> Td = object.placement.vector_to_own(S);
         if (intersection(object, Te, Td, Real(0), distance - epsilon<Real>).first != -1)
             return true;
@@ -153,11 +153,11 @@ bool Note004<Real, Recorder>::shadowed_exactly(const Departure<Real>& on, const 
     const Start<Real> start = start_at(world_, on.along(S), P);
     const auto place = place_of_light(world_, light);
     return std::any_of(occluders_.begin(), occluders_.end(), [&](const auto& object) {
-        return is_in_way(object, start, S, distance, place);
+        return occludes(object, start, S, distance, place);
     });
 }
 
-// The note has one light source; here the colours of all are summed.
+// The note has one light source; here the colours of all lights are summed.
 template <class Real, class Recorder>
 Color<Real> Note004<Real, Recorder>::trace_ray(const Vec3<Real>& e, const Vec3<Real>& d,
                                                const RayWeight<Real>&) const

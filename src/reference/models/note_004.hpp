@@ -9,10 +9,10 @@
 
 namespace packtrace::reference {
 
-/// Note 004, the assignment's algorithms for generic objects under a matrix, method by method
-/// and under its names. Where it departs, a comment says so; docs/reference.md gathers the
-/// reasons. Shading happens in the object's own space, as the note has it, which gives the
-/// lengths and angles of world space only under similarities.
+/// Note 004, the assignment's algorithms for generic objects under a matrix, method by method, with
+/// the note's names. Comments mark the differences from the note; docs/reference.md gives the
+/// reasons. As in the note, shading happens in the object's own space, whose lengths and angles are
+/// those of world space only under similarities.
 template <class Real, class Recorder = NoRecorder>
 class Note004 {
 public:
@@ -27,12 +27,12 @@ public:
     Note004(const Scene& scene, const World<Real>& world, Recorder record = {});
 
     /// The light along a ray from the camera at `e`; `d` need not be unit.
-    /// Camera rays have no children, whose weights would count.
+    /// `weight` is not used: the model has no secondary rays.
     [[nodiscard]] Color<Real> trace_ray(const Vec3<Real>& e, const Vec3<Real>& d,
                                         const RayWeight<Real>& weight = {}) const;
 
-    /// Fills `list` with one tuple for each object that the ray meets, by increasing t0; among
-    /// equal t0 the lower object first. `d` is unit.
+    /// Fills `list` with one tuple for each object that the ray hits, by increasing t0, at equal t0
+    /// the lower object first. `d` is unit.
     void minimum_intersection(const Vec3<Real>& e, const Vec3<Real>& d,
                               std::vector<Tuple>& list) const;
 
@@ -40,13 +40,13 @@ public:
     [[nodiscard]] Color<Real> shader(const Tuple& intersection, const Vec3<Real>& d,
                                      const Vec3<Real>& e, const LightSource<Real>& light) const;
 
-    /// Whether something stands between `I` and the light in direction `S` (unit) at `distance`,
-    /// all three in the own space of `object`.
+    /// Whether a light in direction `S` (unit) at `distance` from `I` is occluded, all three in the
+    /// own space of `object`.
     [[nodiscard]] bool shadowed(const PlacedBody<Real>& object, const Vec3<Real>& I,
                                 const Vec3<Real>& S, Real distance) const;
 
-    /// The same by SelfHits::exact, for a point of the world: nothing is moved by an epsilon, and
-    /// the piece of surface that P is on is not found by looking.
+    /// The same by SelfHits::exact, for a point in world space: no point is moved by an epsilon,
+    /// and `on` says which piece of surface P is on.
     [[nodiscard]] bool shadowed_exactly(const Departure<Real>& on, const Vec3<Real>& P,
                                         const Vec3<Real>& S, const LightSource<Real>& light,
                                         Real distance) const;

@@ -5,9 +5,8 @@
 
 namespace packtrace::reference {
 
-/// An object's matrix M and its inverse: own space is where the surface is defined, world
-/// space where it stands. `t` along a ray is the same in both, as directions are not
-/// normalised on the way.
+/// An object's matrix and its inverse, between own space, where the surface is defined, and world
+/// space. t along a ray is the same in both, as directions are not normalised.
 template <class Real>
 class Affine {
 public:
@@ -30,7 +29,7 @@ public:
     {
         return v.x * columns_[0] + v.y * columns_[1] + v.z * columns_[2];
     }
-    /// By the inverse transpose, so that it stays perpendicular; not normalised.
+    /// By the inverse transpose, so that the normal stays perpendicular; not normalised.
     [[nodiscard]] Vec3<Real> normal_to_world(const Vec3<Real>& n) const
     {
         return n.x * inverse_rows_[0] + n.y * inverse_rows_[1] + n.z * inverse_rows_[2];

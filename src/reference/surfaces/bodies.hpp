@@ -14,7 +14,7 @@
 
 namespace packtrace::reference {
 
-/// A surface under a matrix, as note 004 has all its objects: rays go to its own space.
+/// A surface under a matrix, like all objects of note 004: rays are taken to its own space.
 template <class Real>
 struct PlacedBody {
     Affine<Real> placement;
@@ -24,8 +24,8 @@ struct PlacedBody {
 
 enum class BodyKind { sphere, plane, polygon, placed };
 
-/// A scene's surfaces, converted once; objects without a matrix stay in world space, and polygons
-/// always come to it, so that they share their corners.
+/// A scene's surfaces, converted once. Objects without a matrix stay in world space. Polygons are
+/// always taken to world space, so that neighbours share their corners exactly.
 template <class Real>
 struct Bodies {
     struct Place {
@@ -36,10 +36,10 @@ struct Bodies {
     std::vector<PlaneBody<Real>> planes;
     std::vector<PolygonBody<Real>> polygons;
     std::vector<PlacedBody<Real>> placed;
-    std::vector<Place> places;  ///< by object number, of those that are in
+    std::vector<Place> places;  ///< by object number, if all objects are taken
 
-    /// All objects, or those that `wanted` says. By SelfHits::note spheres are met by the note's
-    /// own formula, by SelfHits::exact by one that cancels nothing.
+    /// Takes all objects, or those for which `wanted` is true. By SelfHits::note spheres are solved
+    /// by the note's own formula, by SelfHits::exact by one without cancellation.
     explicit Bodies(const Scene& scene, SelfHits rule = default_self_hits,
                     const std::function<bool(const Object&)>& wanted = {});
 };
@@ -84,7 +84,7 @@ template <class Real>
         [&](const auto& surface) { return normal_at(surface, own, part); }, body.surface));
 }
 
-/// Where its matrix takes the own origin.
+/// Where its matrix takes the origin of own space.
 template <class Real>
 [[nodiscard]] Vec3<Real> place_of(const PlacedBody<Real>& body)
 {

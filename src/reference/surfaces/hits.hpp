@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-// Hits of rays: the closest one, the surface's normal there, and all of them.
+// Hits of rays: the closest hit, its normal, and all hits.
 namespace packtrace::reference {
 
 template <class Real>
@@ -51,14 +51,14 @@ template <class Real>
     return closest;
 }
 
-/// How a surface stands to the ray that meets it.
+/// The normal at a hit, and the side of the surface from which the ray comes.
 template <class Real>
 struct Facing {
-    Vec3<Real> outward;  ///< unit, on the surface's own outer side: away from a sphere's centre,
-                         ///< along a plane's normal, up the gradient of a quadric
+    Vec3<Real> outward;  ///< unit: away from a sphere's centre, along a plane's normal, up the
+                         ///< gradient of a quadric
     bool leaving;        ///< the ray comes from the inside
 
-    /// The normal's side from which the ray comes.
+    /// The normal turned against the ray.
     [[nodiscard]] Vec3<Real> turned() const
     {
         return leaving ? -outward : outward;
@@ -92,9 +92,9 @@ template <class Real>
                      [&](const auto& body) { return normal_at(body, P, hit.part); });
 }
 
-/// The point `P` of a hit, moved onto the surface: rounding a long `way` leaves it further off than
-/// what lies in the same place is told apart by. No further than rounding brings it, so that no
-/// apex throws it away.
+/// The point `P` of a hit, moved onto the surface. After a long `way`, rounding puts P so far off
+/// that objects in one place could not be recognised as such. P moves by rounding errors at most,
+/// so that a vanishing gradient at an apex cannot throw it far away.
 template <class Real>
 [[nodiscard]] Vec3<Real> on_surface(const Bodies<Real>& bodies, const Hit<Real>& hit,
                                     const Vec3<Real>& P, Real way)
@@ -107,8 +107,8 @@ template <class Real>
     return by_rounding && value != 0 ? P - (value / dot(gradient, gradient)) * gradient : P;
 }
 
-/// At the point `P` of a hit of a ray along `D`. Where the gradient vanishes, at a cone's apex or
-/// the edge of crossing planes, the normal is the unit vector against the ray.
+/// The facing at the point `P` of a hit of a ray along `D`. Where the gradient vanishes, at a
+/// cone's apex or the edge of crossing planes, the normal is the unit vector against the ray.
 template <class Real>
 [[nodiscard]] Facing<Real> facing(const Bodies<Real>& bodies, const Hit<Real>& hit,
                                   const Vec3<Real>& P, const Vec3<Real>& D)
@@ -118,7 +118,7 @@ template <class Real>
     return {-unit(D).value_or(Vec3<Real>()), false};
 }
 
-/// The place that the coordinates of an object's surface are off from.
+/// The position that an object's surface is defined relative to.
 template <class Real>
 [[nodiscard]] Vec3<Real> place_of(const Bodies<Real>& bodies, int object)
 {
@@ -133,17 +133,17 @@ template <class Real>
     return kind == BodyKind::placed ? bodies.placed[index].placement.point_to_own(P) : P;
 }
 
-/// One meeting of a ray with a surface.
+/// One hit of a ray.
 template <class Real>
 struct SurfaceHit {
     Real t;
     int object;
-    Vec3<Real> normal;  ///< unit, the surface's outward one, not turned to the ray
+    Vec3<Real> normal;  ///< unit, outward, not turned against the ray
     bool leaving;       ///< the ray comes from the inside
 };
 
-/// Every meeting with t in [t_min, t_max], by increasing t, then object number. A ray that
-/// touches a surface without crossing meets it twice at the same t.
+/// All hits with t in [t_min, t_max], by increasing t, then object number. A ray that touches a
+/// surface hits it twice at the same t.
 template <class Real>
 [[nodiscard]] std::vector<SurfaceHit<Real>> all_hits(const Bodies<Real>& bodies,
                                                      const Vec3<Real>& org, const Vec3<Real>& dir,

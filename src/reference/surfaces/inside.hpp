@@ -53,7 +53,7 @@ template <class Body, class Real>
     return first;
 }
 
-/// Where a ray from inside a body leaves it; infinite where it never does.
+/// The t at which a ray from inside a body leaves it; infinite where it never does.
 template <class Body, class Real>
 [[nodiscard]] Real leaves_at(const Body& body, const Vec3<Real>& O, const Vec3<Real>& D)
 {

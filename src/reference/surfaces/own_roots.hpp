@@ -4,32 +4,33 @@
 
 #include <limits>
 
-// Where a ray that starts on a surface meets that surface again. That the start is on it is known,
-// and on which side the ray leaves: of the side's two roots one is 0, whatever rounding makes of
-// the constant term, and the start is between the planes that clip, and inside the side at a cap.
+// Where a ray that starts on a surface hits that surface again. It is known that the start is on
+// the surface, and on which side the ray leaves. So one of the side's two roots is 0, however the
+// constant term is rounded; the start is between the clipping planes; and a start on a cap is
+// inside the side.
 namespace packtrace::reference {
 
-/// The side of a surface that a ray leaves it on.
+/// The side of a surface on which a ray leaves it.
 enum class Side { outer, inner };
 
-/// The interior along a ray that starts on the side itself, a t² + 2 b t = 0, b having the sign of
-/// the side the ray leaves on.
+/// The interior along a ray that starts on the side itself: a t² + 2 b t = 0, where `side` decides
+/// the sign of b.
 template <class Real>
-[[nodiscard]] Interior<Real> interior_from_side(Real a, Real b, bool parallel, Side side)
+[[nodiscard]] Interior<Real> interior_from_side(const QuadricLine<Real>& line, Side side)
 {
-    b = side == Side::outer ? std::abs(b) : -std::abs(b);
-    if (parallel)
-        return side == Side::outer ? Interior<Real>{-std::numeric_limits<Real>::infinity(), 0, true}
-                                   : Interior<Real>{0, std::numeric_limits<Real>::infinity(), true};
-    // From a cone's apex into either half, which holds the whole ray.
-    if (b == 0 && a < 0)
-        return {-std::numeric_limits<Real>::infinity(), std::numeric_limits<Real>::infinity(),
-                true};
-    const Real other = -2 * b / a;
-    return {std::min(Real(0), other), std::max(Real(0), other), a > 0};
+    constexpr Real infinite = std::numeric_limits<Real>::infinity();
+    const Real b = side == Side::outer ? std::abs(line.b) : -std::abs(line.b);
+    if (line.parallel)
+        return side == Side::outer ? Interior<Real>{-infinite, 0, true}
+                                   : Interior<Real>{0, infinite, true};
+    // From a cone's apex into one of its halves, which holds the whole ray.
+    if (b == 0 && line.a < 0)
+        return {};
+    const Real other = -2 * b / line.a;
+    return {std::min(Real(0), other), std::max(Real(0), other), line.a > 0};
 }
 
-/// What `interior` must be for t = 0 to be inside or on its edge.
+/// `interior` changed so that t = 0 is inside it or on its edge.
 template <class Real>
 [[nodiscard]] Interior<Real> around_start(Interior<Real> interior)
 {
@@ -43,7 +44,8 @@ template <class Real>
     return interior;
 }
 
-/// The roots ahead of a start at t = 0; one that rounding put at the start lies right behind it.
+/// The roots ahead of a start at t = 0. A root that rounding put at the start gets the smallest
+/// positive t.
 template <class Real>
 [[nodiscard]] Roots<Real> roots_ahead(const Roots<Real>& roots, Side side)
 {
@@ -54,8 +56,8 @@ template <class Real>
             next = i + 1;
     Roots<Real> ahead;
     for (; next < roots.count; ++next)
-        ahead.add(std::max(roots.root[next].t, std::numeric_limits<Real>::min()),
-                  roots.root[next].part, roots.root[next].leaving);
+        ahead.add({std::max(roots.root[next].t, std::numeric_limits<Real>::min()),
+                   roots.root[next].part, roots.root[next].leaving});
     return ahead;
 }
 
@@ -63,9 +65,8 @@ template <class Real>
 [[nodiscard]] Roots<Real> own_roots(const SphereBody<Real>& sphere, const Vec3<Real>& P,
                                     const Vec3<Real>& D, Part, Side side)
 {
-    const Interior<Real> interior =
-        interior_from_side(dot(D, D), dot(P - sphere.center, D), false, side);
-    return roots_ahead(clipped_roots(interior, Slab<Real>{}, false), side);
+    const QuadricLine<Real> line{.a = dot(D, D), .b = dot(P - sphere.center, D), .parallel = false};
+    return roots_ahead(clipped_roots(interior_from_side(line, side), Slab<Real>()), side);
 }
 
 template <class Real>
@@ -87,18 +88,17 @@ template <class Real>
 [[nodiscard]] Roots<Real> roots_from_side(const QuadricBody<Real>& quadric, const Vec3<Real>& P,
                                           const Vec3<Real>& D, Side side)
 {
-    const auto [a, b, parallel] =
+    const QuadricLine<Real> line =
         line_of(quadric, quadric.point_to_canonical(P), quadric.vector_to_canonical(D));
-    Slab<Real> slab = slab_of(quadric.low, quadric.high, P.z, D.z);
+    Slab<Real> slab = slab_of(quadric, P.z, D.z);
     slab.enter = std::min(slab.enter, Real(0));
     slab.leave = std::max(slab.leave, Real(0));
     if (D.z == 0)
         slab = {};
-    return roots_ahead(
-        clipped_roots(interior_from_side(a, b, parallel, side), slab, quadric.capped), side);
+    return roots_ahead(clipped_roots(interior_from_side(line, side), slab), side);
 }
 
-/// From a point on a cap into the body; out of it nothing is ahead.
+/// From a point on a cap into the body. A ray that leaves the body has no roots ahead.
 template <class Real>
 [[nodiscard]] Roots<Real> roots_from_cap(const QuadricBody<Real>& quadric, const Vec3<Real>& P,
                                          const Vec3<Real>& D, Part cap)
@@ -106,8 +106,12 @@ template <class Real>
     const Interior<Real> interior = around_start(
         interior_along(quadric, quadric.point_to_canonical(P), quadric.vector_to_canonical(D)));
     const Real across = (quadric.high - quadric.low) / std::abs(D.z);
-    const Slab<Real> slab{0, across, cap, cap == Part::low_cap ? Part::high_cap : Part::low_cap};
-    return roots_ahead(clipped_roots(interior, slab, true), Side::inner);
+    const Slab<Real> slab{.enter = 0,
+                          .leave = across,
+                          .enters_by = cap,
+                          .leaves_by = cap == Part::low_cap ? Part::high_cap : Part::low_cap,
+                          .capped = true};
+    return roots_ahead(clipped_roots(interior, slab), Side::inner);
 }
 
 template <class Real>
@@ -119,7 +123,8 @@ template <class Real>
     return side == Side::outer ? Roots<Real>{} : roots_from_cap(quadric, P, D, part);
 }
 
-/// Where a ray that leaves the point `P` of a body's `part` on `side` meets the body again, t > 0.
+/// The hits of a ray with the body that it starts on, at the point `P` of its `part`, where it
+/// leaves on `side`; t > 0.
 template <class Real>
 [[nodiscard]] Roots<Real> own_roots(const PlacedBody<Real>& body, const Vec3<Real>& P,
                                     const Vec3<Real>& D, Part part, Side side)

@@ -25,7 +25,9 @@ template <class Real>
                                    const Vec3<Real>& D)
 {
     Roots<Real> roots;
-    roots.add(intersect_ray_plane(O, D, plane), Part::side, dot(plane.normal, D) > 0);
+    roots.add({.t = intersect_ray_plane(O, D, plane),
+               .part = Part::side,
+               .leaving = dot(plane.normal, D) > 0});
     return roots;
 }
 
@@ -35,14 +37,14 @@ template <class Real>
     return plane.normal;
 }
 
-/// The place that the surface's coordinates are off from.
+/// The position that the surface is defined relative to.
 template <class Real>
 [[nodiscard]] Vec3<Real> place_of(const PlaneBody<Real>& plane)
 {
     return plane.point;
 }
 
-/// What is 0 on the surface, and has normal_at() for its gradient.
+/// A function that is 0 on the surface and has the gradient normal_at().
 template <class Real>
 [[nodiscard]] Real value_at(const PlaneBody<Real>& plane, const Vec3<Real>& P, Part)
 {

@@ -15,7 +15,7 @@
 
 namespace packtrace::reference {
 
-/// A planar polygon; of each contour the first corner stands once more at its end.
+/// A planar polygon. Each contour ends with its first corner.
 template <class Real>
 struct PolygonBody {
     std::vector<std::vector<Vec3<Real>>> contours;
@@ -23,8 +23,8 @@ struct PolygonBody {
     int object = 0;
 };
 
-/// The polygon where `transform` puts it, in long double but for one rounding at the end, so that
-/// polygons with a common corner share it to the last digit.
+/// The polygon under `transform`, computed in long double and rounded once, so that neighbours
+/// share their corners exactly.
 template <class Real>
 [[nodiscard]] PolygonBody<Real> polygon_body(const Polygon& polygon, const Mat4& transform,
                                              int object)
@@ -42,7 +42,7 @@ template <class Real>
     return body;
 }
 
-/// Below this share of a direction's length rounding may decide about its slope to a plane.
+/// Where a direction's slope to a plane is below this share of its length, rounding may decide.
 template <class Real>
 inline constexpr Real edge_on = 1024 * std::numeric_limits<Real>::epsilon();
 
@@ -50,7 +50,7 @@ template <class Real>
 [[nodiscard]] bool passes_through(const PolygonBody<Real>& polygon, const Vec3<Real>& O,
                                   const Vec3<Real>& D)
 {
-    // Floats would underflow.
+    // Products of floats would underflow in float.
     using Exact = std::conditional_t<std::is_same_v<Real, float>, double, Real>;
     abi::EvenOdd<Exact> rule({O.x, O.y, O.z}, {D.x, D.y, D.z});
     for (const auto& contour : polygon.contours) {
@@ -61,8 +61,8 @@ template <class Real>
     return rule.inside();
 }
 
-/// `t`, but no further along the line than the edges that cross a half axis across it, as rounding
-/// has them; `t` where it finds none.
+/// `t` clamped to the range of the edges that cross a half axis across the line, computed with
+/// rounding; `t` itself where no edge is found.
 template <class Real>
 [[nodiscard]] Real between_edges(const PolygonBody<Real>& polygon, const Vec3<Real>& O,
                                  const Vec3<Real>& D, Real t)
@@ -107,15 +107,15 @@ template <class Real>
     const Real slope = dot(polygon.normal, D);
     const Vec3<Real> to = polygon.contours[0][0] - O;
     Real t = dot(polygon.normal, to) / slope;
-    // Rounding may put the hit of a line along the plane anywhere: it is between edges then, but
-    // for a start in the plane, of which every term is 0.
+    // Rounding may put the hit of a line along the plane anywhere: it is clamped between the edges.
+    // A start in the plane, where every term is 0, has no such error.
     const Real length = std::abs(D.x) + std::abs(D.y) + std::abs(D.z);
     if (!(std::abs(slope) > edge_on<Real> * length)) {
         const Vec3<Real> terms = polygon.normal * to;
         if (terms.x != 0 || terms.y != 0 || terms.z != 0)
             t = between_edges(polygon, O, D, t);
     }
-    roots.add(t, Part::side, slope > 0);
+    roots.add({.t = t, .part = Part::side, .leaving = slope > 0});
     return roots;
 }
 
@@ -125,14 +125,14 @@ template <class Real>
     return polygon.normal;
 }
 
-/// The place that the surface's coordinates are off from.
+/// The position that the surface is defined relative to.
 template <class Real>
 [[nodiscard]] Vec3<Real> place_of(const PolygonBody<Real>& polygon)
 {
     return polygon.contours[0][0];
 }
 
-/// What is 0 on the surface, and has normal_at() for its gradient.
+/// A function that is 0 on the surface and has the gradient normal_at().
 template <class Real>
 [[nodiscard]] Real value_at(const PolygonBody<Real>& polygon, const Vec3<Real>& P, Part)
 {

@@ -12,7 +12,7 @@ namespace {
 using Wide = long double;
 using V = Vec3<Wide>;
 
-// A coefficient is a double: of a sum that cancels, a few units in its last place may be left.
+// Coefficients are doubles: where a sum cancels, a few units of their last place may remain.
 constexpr Wide negligible = 64 * std::numeric_limits<double>::epsilon();
 
 struct Eigen {
@@ -20,8 +20,8 @@ struct Eigen {
     Wide values[3];
 };
 
-// Turns the axes p and q so that the matrix has nothing off its diagonal there (Golub and Van
-// Loan, Matrix Computations, section 8.5).
+// Turns the axes p and q so that matrix[p][q] becomes 0 (Golub and Van Loan, Matrix Computations,
+// section 8.5).
 void rotate_axes(Wide (&matrix)[3][3], Eigen& eigen, int p, int q)
 {
     const Wide ratio = (matrix[q][q] - matrix[p][p]) / (2 * matrix[p][q]);
@@ -44,11 +44,11 @@ void rotate_axes(Wide (&matrix)[3][3], Eigen& eigen, int p, int q)
     eigen.vectors[q] = sine * old + cosine * eigen.vectors[q];
 }
 
-// A diagonal matrix comes back with its own axes.
+// A diagonal matrix keeps its axes.
 Eigen eigen_of(Wide (&matrix)[3][3])
 {
     Eigen eigen;
-    // Convergence is quadratic: five or six sweeps do.
+    // Convergence is quadratic: five or six sweeps suffice.
     for (int sweep = 0; sweep < 30; ++sweep)
         for (const auto& [p, q] : {std::pair(0, 1), std::pair(0, 2), std::pair(1, 2)}) {
             const Wide diagonal = std::abs(matrix[p][p]) + std::abs(matrix[q][q]);
@@ -76,7 +76,8 @@ void sort_axes(Eigen& eigen)
         }
 }
 
-// Two or three axes without a square are turned so that the slope lies along the last.
+// Turns the axes without a square, if there are two or three, so that the slope lies along the
+// last.
 void align_slope(Eigen& eigen, const V& slope)
 {
     const bool has_square = eigen.values[0] != 0;

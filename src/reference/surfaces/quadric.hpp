@@ -23,8 +23,8 @@ struct CanonicalQuadric {
 };
 
 /// The canonical form of Ax² + By² + Cz² + Dxy + Exz + Fyz + Gx + Hy + Iz + J = 0, found in long
-/// double: the axes are eigenvectors (Jacobi's method). What is left of coefficients, as doubles
-/// are, that cancel counts as 0.
+/// double: the axes are eigenvectors (Jacobi's method). Sums that cancel to the rounding error of
+/// their double coefficients count as 0.
 template <class Real>
 [[nodiscard]] CanonicalQuadric<Real> canonical_quadric(const std::array<double, 10>& coefficients);
 
@@ -45,7 +45,7 @@ struct QuadricBody {
     {
         return {dot(form.axes[0], own), dot(form.axes[1], own), dot(form.axes[2], own)};
     }
-    /// Whether it is two planes that cross.
+    /// Whether the quadric is two planes that cross.
     [[nodiscard]] bool crossing_planes() const
     {
         const Vec3<Real>& s = form.square;
@@ -57,8 +57,8 @@ struct QuadricBody {
         const Vec3<Real> bent = form.square * p;
         return {bent.x, bent.y, bent.z + form.linear};
     }
-    /// Its direction on the surface, of any length. Of two planes it is that of one of them, and of
-    /// no other direction however near to their edge, where |s_i| x_i² = |s_j| x_j².
+    /// The direction of the gradient on the surface, of any length. Of two crossing planes it is
+    /// the normal of one of them, also next to their edge, because |s_i| x_i² = |s_j| x_j² on them.
     [[nodiscard]] Vec3<Real> way_out(const Vec3<Real>& p) const
     {
         if (crossing_planes()) {
@@ -82,14 +82,14 @@ template <class Real>
 struct QuadricLine {
     Real a;
     Real b;
-    bool parallel;  ///< a is 0, or nothing but rounding error: there is at most one root
+    bool parallel;  ///< a is 0 up to rounding error: there is at most one root
 };
 
 template <class Real>
 [[nodiscard]] QuadricLine<Real> line_of(const QuadricBody<Real>& quadric, const Vec3<Real>& p,
                                         const Vec3<Real>& v)
 {
-    // What rounding v does to a, and what computing it adds.
+    // The error of a by rounding v and by computing a.
     constexpr Real roundoffs = 4 * std::numeric_limits<Real>::epsilon();
     const Vec3<Real> terms = quadric.form.square * v * v;
     const Real a = terms.x + terms.y + terms.z;
@@ -97,7 +97,7 @@ template <class Real>
     return {a, dot(quadric.half_gradient(p), v), std::abs(a) <= roundoffs * size};
 }
 
-/// A sum, and how large the terms are that may cancel in it.
+/// A sum, and the sum of its terms' magnitudes, which tells how much may cancel.
 template <class Real>
 struct Cancelling {
     Real sum = 0;
@@ -116,8 +116,8 @@ struct Cancelling {
     }
 };
 
-/// b² - a c of a line through p, by its moment m = p x v: terms that cancel for far origins are
-/// not there, and crossing planes leave a square alone.
+/// b² - a c of a line through p, by its moment m = p x v: without the terms that cancel for far
+/// origins. Of crossing planes one square remains.
 template <class Real>
 [[nodiscard]] Cancelling<Real> discriminant_by_moment(const QuadricBody<Real>& quadric,
                                                       const Vec3<Real>& p, const Vec3<Real>& v)
@@ -134,7 +134,7 @@ template <class Real>
     return result;
 }
 
-/// The same by a, b and c themselves, which are small where a line nearly runs along the surface.
+/// The same by a, b and c themselves, which are small where a line nearly lies on the surface.
 template <class Real>
 [[nodiscard]] Cancelling<Real> discriminant_by_terms(const QuadricBody<Real>& quadric,
                                                      const Vec3<Real>& p, const Vec3<Real>& v)
@@ -153,7 +153,7 @@ template <class Real>
             2 * std::abs(b.sum) * b.size + std::abs(a.sum) * c.size + std::abs(c.sum) * a.size};
 }
 
-/// The one of the two in which less cancels, by a clear margin where it is not the first.
+/// The discriminant by terms if much less cancels in it, else by the moment.
 template <class Real>
 [[nodiscard]] Real discriminant_of(const QuadricBody<Real>& quadric, const Vec3<Real>& p,
                                    const Vec3<Real>& v)
@@ -163,8 +163,9 @@ template <class Real>
     return 4 * by_terms.size < by_moment.size ? by_terms.sum : by_moment.sum;
 }
 
-/// The t at which a line is nearest to the centre in the measure of the surface's own curvature: a
-/// long way along a cylinder or an edge is no distance. Along a paraboloid's axis it is one.
+/// The t at which a line is nearest to the centre. Distances are weighted by the surface's
+/// curvature: those along a cylinder or an edge count as 0, but not those along a paraboloid's
+/// axis.
 template <class Real>
 [[nodiscard]] Real nearest_to_center(const QuadricBody<Real>& quadric, const Vec3<Real>& p,
                                      const Vec3<Real>& v)
@@ -177,7 +178,7 @@ template <class Real>
     return distance > 0 ? -dot(weight * p, v) / distance : Real(0);
 }
 
-/// Where a line in canonical space is inside the surface, were it not clipped.
+/// Where a line in canonical space is inside the surface, without clipping.
 template <class Real>
 [[nodiscard]] Interior<Real> interior_along(const QuadricBody<Real>& quadric, const Vec3<Real>& org,
                                             const Vec3<Real>& v)
@@ -195,17 +196,29 @@ template <class Real>
     return interior;
 }
 
+/// The slab for a line at height `z` that climbs by `climb` per unit of t.
+template <class Real>
+[[nodiscard]] Slab<Real> slab_of(const QuadricBody<Real>& quadric, Real z, Real climb)
+{
+    constexpr Real infinite = std::numeric_limits<Real>::infinity();
+    const auto& [form, low, high, capped, object] = quadric;
+    if (climb == 0)
+        return low <= z && z <= high ? Slab<Real>{} : Slab<Real>{infinite, -infinite};
+    if (climb > 0)
+        return {(low - z) / climb, (high - z) / climb, Part::low_cap, Part::high_cap, capped};
+    return {(high - z) / climb, (low - z) / climb, Part::high_cap, Part::low_cap, capped};
+}
+
 template <class Real>
 [[nodiscard]] Roots<Real> roots_of(const QuadricBody<Real>& quadric, const Vec3<Real>& org,
                                    const Vec3<Real>& dir)
 {
     const Interior<Real> interior =
         interior_along(quadric, quadric.point_to_canonical(org), quadric.vector_to_canonical(dir));
-    return clipped_roots(interior, slab_of(quadric.low, quadric.high, org.z, dir.z),
-                         quadric.capped);
+    return clipped_roots(interior, slab_of(quadric, org.z, dir.z));
 }
 
-/// The way out of the inside, not normalised.
+/// Outwards, not normalised.
 template <class Real>
 [[nodiscard]] Vec3<Real> normal_at(const QuadricBody<Real>& quadric, const Vec3<Real>& P, Part part)
 {
@@ -222,7 +235,7 @@ template <class Real>
     return n.x * axes[0] + n.y * axes[1] + n.z * axes[2];
 }
 
-/// What is 0 on the surface, and has normal_at() for its gradient.
+/// A function that is 0 on the surface and has the gradient normal_at().
 template <class Real>
 [[nodiscard]] Real value_at(const QuadricBody<Real>& quadric, const Vec3<Real>& P, Part part)
 {

@@ -15,10 +15,10 @@ struct SphereBody {
     Vec3<Real> center;
     Real radius{};
     int object = 0;
-    bool textbook = false;  ///< met by note 001's own formula
+    bool textbook = false;  ///< solved by note 001's own formula
 };
 
-/// The textbook quadratic of note 001's book, both roots; infinite for a line that misses.
+/// Both roots by note 001's own quadratic formula; infinite for a line that misses.
 template <class Real>
 [[nodiscard]] std::pair<Real, Real> intersect_ray_sphere(const Vec3<Real>& O, const Vec3<Real>& D,
                                                          const SphereBody<Real>& sphere)
@@ -35,12 +35,12 @@ template <class Real>
     return {(-b + root) / (2 * a), (-b - root) / (2 * a)};
 }
 
-/// What a sphere's equation is solved in: a ground sphere's radius costs double some digits that
-/// its users count on.
+/// The precision that a sphere's equation is solved in: long double for double, because a ground
+/// sphere's large radius would cost digits.
 template <class Real>
 using Solving = std::conditional_t<std::is_same_v<Real, double>, long double, Real>;
 
-/// Whether a line passes the sphere so far off that rounding has no part in it.
+/// Whether a line misses the sphere by so much that rounding cannot matter.
 template <class Real>
 [[nodiscard]] bool passes_by(const SphereBody<Real>& sphere, const Vec3<Real>& O,
                              const Vec3<Real>& D)
@@ -48,12 +48,12 @@ template <class Real>
     constexpr Real roundoff = 16 * std::numeric_limits<Real>::epsilon();
     const Vec3<Real> CO = O - sphere.center;
     const Vec3<Real> moment = cross(CO, D);
-    const Real reach = sphere.radius * sphere.radius + roundoff * roundoff * dot(CO, CO);
-    return dot(moment, moment) > 2 * dot(D, D) * reach;
+    const Real radius2 = sphere.radius * sphere.radius + roundoff * roundoff * dot(CO, CO);
+    return dot(moment, moment) > 2 * dot(D, D) * radius2;
 }
 
 /// Where a line is inside a sphere. The discriminant is Lagrange's form a r² - |CO x D|², which
-/// keeps its digits where the sphere is far away.
+/// keeps its digits for far spheres.
 template <class Real>
 [[nodiscard]] Interior<Real> interior_along(const SphereBody<Real>& sphere, const Vec3<Real>& O,
                                             const Vec3<Real>& D)
@@ -63,7 +63,7 @@ template <class Real>
         return {t2, t1, true};
     }
     if (passes_by(sphere, O, D))
-        return without_roots<Real>(false);
+        return no_interior<Real>();
     using Wide = Solving<Real>;
     const Vec3<Wide> d(D);
     const Vec3<Wide> CO = Vec3<Wide>(O) - Vec3<Wide>(sphere.center);
@@ -81,8 +81,8 @@ template <class Real>
 {
     const Interior<Real> interior = interior_along(sphere, O, D);
     Roots<Real> roots;
-    roots.add(interior.first, Part::side, false);
-    roots.add(interior.last, Part::side, true);
+    roots.add({.t = interior.first, .part = Part::side, .leaving = false});
+    roots.add({.t = interior.last, .part = Part::side, .leaving = true});
     return roots;
 }
 
@@ -93,14 +93,14 @@ template <class Real>
     return P - sphere.center;
 }
 
-/// The place that the surface's coordinates are off from.
+/// The position that the surface is defined relative to.
 template <class Real>
 [[nodiscard]] Vec3<Real> place_of(const SphereBody<Real>& sphere)
 {
     return sphere.center;
 }
 
-/// What is 0 on the surface, and has normal_at() for its gradient.
+/// A function that is 0 on the surface and has the gradient normal_at().
 template <class Real>
 [[nodiscard]] Real value_at(const SphereBody<Real>& sphere, const Vec3<Real>& P, Part)
 {
