@@ -7,11 +7,11 @@
 
 namespace packtrace {
 
-/// A circle of the camera around an axis through `center`, looking at `center`.
+/// The camera circles around an axis through `center` and looks at `center`.
 struct Orbit {
-    Vec3 center{0.0};
+    Vec3 center{0.0};          ///< scene units
     Vec3 axis{0.0, 1.0, 0.0};  ///< need not be unit
-    double degrees = 360.0;    ///< swept over the whole animation, first frame at 0
+    double degrees = 360.0;    ///< swept over the whole animation; the first frame is at 0
 };
 
 /// The camera's pose at one frame; poses between keys are interpolated.
@@ -22,7 +22,7 @@ struct CameraKey {
     Vec3 up{0.0, 1.0, 0.0};
 };
 
-/// Camera animation of note 002: either an orbit or at least two keys in rising frame order.
+/// Camera animation of note 002: either an orbit, or at least two keys in ascending frame order.
 struct Animation {
     int frames = 1;  ///< >= 1
     std::optional<Orbit> orbit;

@@ -7,32 +7,34 @@
 #include <string>
 #include <vector>
 
-// Scenes built in code: surfaces, objects and materials that are complete from the start.
+// Functions that build scenes in code. The surfaces, objects and materials they return are
+// complete.
 //
 //     Scene scene = make_scene(Illumination::whitted);
 //     Material glass = make_material(Illumination::whitted);
 //     std::get<WhittedMaterial>(glass.model).transmissive = Rgb(0.9);
 //     Object lens = make_object(ellipsoid(), glass);
 //     scene.objects.push_back(translate(scale(lens, {1, 1, 0.3}), {0, 0, 5}));
-//     validate(scene);   // render() and RayScene do so themselves
+//     validate(scene);   // render() and RayScene also call it
 //
-// Lengths are in scene units, angles in degrees. Numbers are checked by validate(), not here.
+// Lengths are in scene units, angles in degrees. validate() checks numbers; these functions do not.
 namespace packtrace {
 
-/// A scene as an empty file with this illumination describes it, each note with its own defaults.
+/// The scene that an empty scene file with this illumination describes. Each note has its own
+/// defaults.
 [[nodiscard]] PACKTRACE_API Scene make_scene(Illumination illumination = Illumination::scratch);
 
-/// The material of an object that says nothing of it under this illumination: `model` holds the
-/// alternative that the illumination needs.
+/// The default material of an object under this illumination. `model` holds the alternative that
+/// the illumination needs.
 [[nodiscard]] PACKTRACE_API Material make_material(Illumination illumination,
                                                    const std::string& name = "");
 
 [[nodiscard]] PACKTRACE_API Sphere sphere(const Vec3& center, double radius);
 
-/// `normal` may have any length but 0; the checker's axes are laid.
+/// `normal` may have any length except 0. The axes of a checker are set by plane_axes().
 [[nodiscard]] PACKTRACE_API Plane plane(const Vec3& point, const Vec3& normal);
 
-// The quadrics of QuadricKind, about the origin and the z axis, unbounded where their equation is.
+// The quadrics of QuadricKind, centred at the origin, with z as their axis. They are not clipped.
 [[nodiscard]] PACKTRACE_API Quadric ellipsoid();
 [[nodiscard]] PACKTRACE_API Quadric cylinder();
 [[nodiscard]] PACKTRACE_API Quadric cone();
@@ -41,29 +43,31 @@ namespace packtrace {
 [[nodiscard]] PACKTRACE_API Quadric hyperboloid2();
 [[nodiscard]] PACKTRACE_API Quadric saddle();
 
-/// A … J of Ax² + By² + Cz² + Dxy + Exz + Fyz + Gx + Hy + Iz + J = 0.
+/// `coefficients` are A … J of Ax² + By² + Cz² + Dxy + Exz + Fyz + Gx + Hy + Iz + J = 0.
 [[nodiscard]] PACKTRACE_API Quadric quadric(const std::array<double, 10>& coefficients);
 
-/// A quadric of any kind but `general`, which has no coefficients of its own and stays without.
+/// A quadric of any kind. For `general`, which has no fixed equation, all coefficients stay 0.
 [[nodiscard]] PACKTRACE_API Quadric quadric(QuadricKind kind);
 
-/// The part of a quadric between two heights z in its own space, open at its ends or closed.
+/// The part of a quadric with `low` <= z <= `high` in its own space. clip() leaves the ends open,
+/// clip_and_cap() closes them.
 [[nodiscard]] PACKTRACE_API Quadric clip(Quadric quadric, double low, double high);
 [[nodiscard]] PACKTRACE_API Quadric clip_and_cap(Quadric quadric, double low, double high);
 
-/// A polygon of one contour; push_back further ones to `contours` for holes.
+/// A polygon with one contour. For holes, append further contours to `contours`.
 [[nodiscard]] PACKTRACE_API Polygon polygon(std::vector<Vec3> corners);
 
 [[nodiscard]] PACKTRACE_API Object make_object(Surface surface, Material material = {},
                                                std::string name = "");
 
-// The object moved further: each is applied after what its transform has done so far, as the keys
-// of a scene file are.
+// Each returns the object with one more transformation, applied after its present transform, as
+// the keys of a scene file are.
 [[nodiscard]] PACKTRACE_API Object translate(Object object, const Vec3& by);
-/// By `degrees` about an axis through the origin, of any length but 0: 90 about z take x to y.
+/// Rotates about an axis through the origin, which may have any length except 0. 90 degrees about z
+/// take x to y.
 /// Throws std::invalid_argument for the axis (0, 0, 0).
 [[nodiscard]] PACKTRACE_API Object rotate(Object object, const Vec3& axis, double degrees);
-/// About the origin; factors below 0 mirror, 0 is refused by validate().
+/// Scales about the origin. Negative factors mirror; validate() rejects 0.
 [[nodiscard]] PACKTRACE_API Object scale(Object object, const Vec3& factors);
 [[nodiscard]] PACKTRACE_API Object scale(Object object, double factor);
 [[nodiscard]] PACKTRACE_API Object transform(Object object, const Mat4& matrix);

@@ -8,10 +8,10 @@
 
 namespace packtrace {
 
-/// How far a pixel of one picture is from the same pixel of another.
+/// The difference between a pixel of one picture and the same pixel of another.
 struct PixelError {
-    int x = 0;           ///< column, from the left
-    int y = 0;           ///< row, from the top
+    int x = 0;           ///< column, from the left, from 0
+    int y = 0;           ///< row, from the top, from 0
     double error = 0.0;  ///< largest absolute difference of a channel; infinite for NaN
 };
 
@@ -20,24 +20,25 @@ struct CompareOptions {
     int worst = 5;                   ///< how many of the worst pixels to list
 };
 
-/// The distance between two pictures of equal size, in the pictures' linear values.
+/// The difference between two pictures of equal size, in linear values.
 struct Comparison {
     double max_abs = 0.0;
     double rmse = 0.0;  ///< over all channels of all pixels
-    double psnr = 0.0;  ///< decibels for a peak of 1; infinite for equal pictures
+    double psnr = 0.0;  ///< decibels, for a peak of 1; infinite for equal pictures
     std::size_t pixels = 0;
     std::size_t pixels_off = 0;     ///< pixels whose error exceeds the threshold
-    std::vector<PixelError> worst;  ///< largest error first, then reading order; none when equal
+    std::vector<PixelError> worst;  ///< largest error first, then reading order; none if equal
 };
 
-/// Compares two pictures. Throws std::invalid_argument that names both sizes when unequal, and for
-/// negative options.
+/// Compares two pictures. Throws std::invalid_argument for pictures of different sizes (the message
+/// names both) and for negative options.
 template <class Real>
 [[nodiscard]] PACKTRACE_API Comparison compare(const Image<Real>& a, const Image<Real>& b,
                                                const CompareOptions& options = {});
 
-/// A picture of the error per pixel: black for none, through blue, green, yellow, red to white
-/// at the scale of the largest error (logarithmic over six decades below it).
+/// A picture of the error per pixel, from black for no error through blue, green, yellow and red to
+/// white for the largest error. The scale is logarithmic, over the six decades below the largest
+/// error.
 template <class Real>
 [[nodiscard]] PACKTRACE_API Image<float> heatmap(const Image<Real>& a, const Image<Real>& b);
 

@@ -1,4 +1,4 @@
 #pragma once
 
-/// Marks what the library offers. All other symbols of libpacktrace are hidden.
+/// Marks the public symbols of libpacktrace. All other symbols are hidden.
 #define PACKTRACE_API [[gnu::visibility("default")]]

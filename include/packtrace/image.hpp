@@ -4,20 +4,21 @@
 #include <packtrace/unset_allocator.hpp>
 
 #include <cstddef>
-#include <stdexcept>  // for those who catch what is thrown
+#include <stdexcept>  // so that callers can catch the exceptions
 #include <vector>
 
 namespace packtrace {
 namespace detail {
 
-// Throw std::invalid_argument, in the library, as headers have to compile where exceptions are off.
+// Throw std::invalid_argument. They are in the library, so that the headers compile with exceptions
+// switched off.
 [[noreturn]] PACKTRACE_API void refuse_sides(int width, int height);
 [[noreturn]] PACKTRACE_API void refuse_values(std::size_t values, int width, int height);
 
 }  // namespace detail
 
-/// A picture of linear RGB values, 1.0 for full, not clamped; rows from the top, pixels
-/// interleaved as r, g, b.
+/// A picture of linear RGB values. 1.0 is full intensity; values are not clamped. Rows run from the
+/// top, and each pixel is r, g, b.
 template <class Real>
 struct Image {
     using Pixels = std::vector<Real, UnsetAllocator<Real>>;
@@ -27,13 +28,14 @@ struct Image {
     Pixels rgb;
 
     Image() = default;
-    /// Black. Throws std::invalid_argument for sides below 0, as unset() does.
+    /// A black picture. Throws std::invalid_argument if a side is negative.
     Image(int w, int h) : Image(unset(w, h))
     {
         rgb.assign(rgb.size(), Real(0));
     }
 
-    /// Pixels of any colour, for who fills them all.
+    /// A picture with uninitialised pixels, for callers that write all of them. Throws
+    /// std::invalid_argument if a side is negative.
     [[nodiscard]] static Image unset(int w, int h)
     {
         if (w < 0 || h < 0)
@@ -45,14 +47,14 @@ struct Image {
         return image;
     }
 
-    /// Whether `rgb` has three values a pixel.
+    /// Whether `rgb` has three values per pixel.
     [[nodiscard]] bool is_whole() const
     {
         return width >= 0 && height >= 0 && rgb.size() % 3 == 0 &&
                rgb.size() / 3 == static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
     }
 
-    /// Throws std::invalid_argument where it has not.
+    /// Throws std::invalid_argument unless is_whole().
     void check() const
     {
         if (!is_whole())
@@ -70,7 +72,7 @@ struct Image {
     }
 };
 
-/// The same picture in another precision. Throws as Image::check() does.
+/// Returns the picture in another precision. Throws as Image::check() does.
 template <class To, class From>
 [[nodiscard]] Image<To> convert(const Image<From>& from)
 {

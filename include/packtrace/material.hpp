@@ -9,13 +9,13 @@
 
 namespace packtrace {
 
-/// The rule a scene is lit by. Each of the notes has its own; `general` is the one equation
-/// they all lower to.
+/// The illumination model of a scene. Each note has its own. All of them lower to the one equation
+/// of `general`.
 enum class Illumination { scratch, sketch, whitted, shader, general };
 
 /// Note 001.
 struct ScratchMaterial {
-    /// Exponent of the highlight, which is tinted by the colour; -1 for none.
+    /// Exponent of the highlight, whose colour is multiplied by the material's; -1 for none.
     double specular = -1.0;
     /// Share of the mirrored light, in [0, 1].
     double reflective = 0.0;
@@ -23,7 +23,7 @@ struct ScratchMaterial {
     bool operator==(const ScratchMaterial&) const = default;
 };
 
-/// Note 000. `ambient` and `diffuse` multiply the colour, the others are white.
+/// Note 000. `ambient` and `diffuse` multiply the colour; the other coefficients do not.
 struct SketchMaterial {
     Rgb ambient{0.0};
     Rgb diffuse{0.0};
@@ -35,7 +35,8 @@ struct SketchMaterial {
     bool operator==(const SketchMaterial&) const = default;
 };
 
-/// Note 002 (Whitted 1980). `ambient` and `diffuse` multiply the colour, the others are white.
+/// Note 002 (Whitted 1980). `ambient` and `diffuse` multiply the colour; the other coefficients do
+/// not.
 struct WhittedMaterial {
     Rgb ambient{0.0};
     Rgb diffuse{0.0};
@@ -54,7 +55,7 @@ struct ShaderMaterial {
     bool operator==(const ShaderMaterial&) const = default;
 };
 
-/// The engine's own equation; every coefficient is absolute, the colour is not used.
+/// The engine's own equation. No coefficient multiplies the colour, which is not used.
 struct GeneralMaterial {
     Rgb ambient{0.0};
     Rgb diffuse{0.0};
@@ -67,7 +68,8 @@ struct GeneralMaterial {
     bool operator==(const GeneralMaterial&) const = default;
 };
 
-/// Squares of two colours on a plane; `Material::color` is the square at the plane's point.
+/// Squares of two colours on a plane. `Material::color` is the colour of the square at the plane's
+/// point.
 struct Checker {
     Rgb other{0.0};
     double size = 1.0;  ///< edge of a square, scene units, > 0
@@ -76,10 +78,10 @@ struct Checker {
 };
 
 struct Material {
-    std::string name;  ///< empty when written inline
+    std::string name;  ///< empty for a material that its object defines itself
     Rgb color{1.0};
     std::optional<Checker> checker;  ///< planes only
-    /// The alternative in use always belongs to the scene's `Illumination`.
+    /// Must hold the alternative of the scene's `Illumination`; validate() checks it.
     std::variant<ScratchMaterial, SketchMaterial, WhittedMaterial, ShaderMaterial, GeneralMaterial>
         model;
 

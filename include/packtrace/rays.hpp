@@ -6,17 +6,18 @@
 #include <cstdint>
 #include <limits>
 #include <span>
-#include <stdexcept>  // for those who catch what is thrown
+#include <stdexcept>  // so that callers can catch the exceptions
 #include <type_traits>
 
-// Rays of the caller's own and what they hit, in the layouts that RayScene takes.
+// The caller's own rays and their hits, in the layouts that RayScene accepts.
 namespace packtrace {
 
-/// Rays as arrays of their components, `count` elements each; nothing is copied or kept. A hit
-/// counts where t_min < t < t_max; t_min >= 0. Directions need not be unit, t counts in their
-/// lengths. A ray with a NaN anywhere hits nothing. Origins are within ±1e150 (±1e18 in single
-/// precision with Accuracy::fast), the largest component of a direction between 1e-100 and 1e100
-/// (1e-12 and 1e12 in single precision); answers to other rays mean nothing.
+/// Rays as arrays of their components, `count` elements each. Nothing is copied or kept.
+///
+/// A hit must have t_min < t < t_max; t_min >= 0. Directions need not be unit: t is in units of
+/// their length. A ray with a NaN hits nothing. Origins must be within ±1e150 (±1e18 in single
+/// precision with Accuracy::fast). The largest component of a direction must be between 1e-100 and
+/// 1e100 (1e-12 and 1e12 in single precision). The answers for other rays are meaningless.
 template <class Real>
 struct RaysView {
     const Real* org_x = nullptr;
@@ -30,40 +31,42 @@ struct RaysView {
     std::size_t count = 0;
 };
 
-/// The surface of a ray that starts on none, and of a miss.
+/// The surface number of a ray that starts on no surface, and of a miss.
 inline constexpr std::int32_t no_start = std::numeric_limits<std::int32_t>::min();
 
-/// Where closest hits go: `object` is the index in Scene::objects, -1 for a miss, whose `t` is
-/// the ray's t_max. Normals are unit and point outwards; leave them null where not wanted.
+/// The output arrays of closest hits, one element per ray. The arrays of normals may be null.
 template <class Real>
 struct HitsView {
-    Real* t = nullptr;
-    std::int32_t* object = nullptr;
-    Real* normal_x = nullptr;
+    Real* t = nullptr;               ///< of a miss: the ray's t_max
+    std::int32_t* object = nullptr;  ///< index in Scene::objects; -1 for a miss
+    Real* normal_x = nullptr;        ///< unit, outwards
     Real* normal_y = nullptr;
     Real* normal_z = nullptr;
-    /// Where rays may start that leave the hit on the outer or the inner side of the surface with
-    /// SelfHits::exact: their own start is no hit at any t > 0. With SelfHits::note the hit point.
-    /// Wanted only together with normals; the scalar kernel does not fill them.
+    // The arrays below may be null, and need the arrays of normals. The scalar kernel does not fill
+    // them.
+    /// Origins for rays that leave the hit on the outer or the inner side of the surface. With
+    /// SelfHits::exact such a ray does not hit the point it starts at, at any t > 0. With
+    /// SelfHits::note they are the hit point. NaN for a miss.
     Real* outer_start[3] = {};
     Real* inner_start[3] = {};
-    Real* point[3] = {};              ///< the hit's own point, likewise; NaN for a miss, as starts
-    std::int32_t* surface = nullptr;  ///< a number for StartsView, likewise; no_start for a miss
+    Real* point[3] = {};              ///< the hit point; NaN for a miss
+    std::int32_t* surface = nullptr;  ///< number of the surface for StartsView; no_start for a miss
 };
 
-/// What rays that leave earlier hits start on, `count` elements each: with SelfHits::exact they
-/// hit that surface again only where they truly do, however shallow below it they go. `point` and
-/// `surface` are what HitsView got; for rays that leave on the inner side of the surface, the
-/// complement ~surface. `no_start` is a ray from elsewhere. Numbers that no surface of the scene
-/// has are refused; those of another scene's surfaces are not told from its own.
+/// The surfaces that rays start on, for rays that leave earlier hits; `count` elements each. With
+/// SelfHits::exact such a ray hits its surface again only at a true second hit, however shallow its
+/// way below the surface. `point` and `surface` come from HitsView. A ray that leaves on the inner
+/// side of the surface has the complement ~surface. A ray that starts on no surface has `no_start`.
+/// Numbers that no surface of the scene has are rejected; numbers from another scene cannot be
+/// recognised.
 template <class Real>
 struct StartsView {
     const Real* point[3] = {};
     const std::int32_t* surface = nullptr;
 };
 
-/// Points of earlier hits, `count` elements each: `point` and `surface` are what HitsView got. A
-/// point from elsewhere has a surface below 0; where all are, `surface` may be null.
+/// Points of earlier hits, `count` elements each; `point` and `surface` come from HitsView. A point
+/// on no surface has a negative surface number; if no point is on a surface, `surface` may be null.
 template <class Real>
 struct PointsView {
     const Real* point[3] = {};
@@ -79,8 +82,7 @@ struct SurfaceHit {
     Real normal[3] = {};       ///< unit, outwards
 };
 
-/// Holds the t of a hit, as infinite precision has it: low <= t <= high. Empty, low > high, for no
-/// hit.
+/// Bounds of the t of a hit in exact arithmetic: low <= t <= high. Empty (low > high) for no hit.
 struct HitBounds {
     double low = std::numeric_limits<double>::infinity();
     double high = -std::numeric_limits<double>::infinity();
@@ -91,7 +93,7 @@ struct HitBounds {
     }
 };
 
-/// One ray, as RaysView has it.
+/// One ray, with the ranges of RaysView.
 template <class Real>
 struct Ray {
     Real org[3] = {};
@@ -100,8 +102,8 @@ struct Ray {
     Real t_max = std::numeric_limits<Real>::infinity();
 };
 
-/// Rays as an array of structs, or as parts of structs of your own, `stride` bytes from one ray to
-/// the next: RayStructs<float>(&mine[0].ray, mine.size(), sizeof mine[0]). Nothing is kept.
+/// Rays as an array of structs, or as members of your own structs, with `stride` bytes from one ray
+/// to the next: RayStructs<float>(&mine[0].ray, mine.size(), sizeof mine[0]). Nothing is kept.
 template <class Real>
 struct RayStructs {
     const Ray<Real>* first = nullptr;
@@ -113,7 +115,7 @@ struct RayStructs {
         : first(rays), count(ray_count), stride(ray_stride)
     {
     }
-    /// Of a std::vector, std::array or std::span.
+    /// From a std::vector, std::array or std::span.
     template <class Rays>
     requires std::is_convertible_v<const Rays&, std::span<const Ray<Real>>> RayStructs(
         const Rays& rays)
@@ -129,7 +131,7 @@ struct RayStructs {
     }
 };
 
-/// Where the closest hits of RayStructs go, likewise.
+/// The output of closest hits for RayStructs, with the same layouts.
 template <class Real>
 struct HitStructs {
     SurfaceHit<Real>* first = nullptr;
@@ -157,20 +159,20 @@ struct HitStructs {
 
 namespace detail {
 
-/// Throws std::invalid_argument where an array has not `wanted` elements. In the library, as
-/// headers have to compile where exceptions are off.
+/// Throws std::invalid_argument unless an array has `wanted` elements. It is in the library, so
+/// that the headers compile with exceptions switched off.
 PACKTRACE_API void check_length(const char* name, std::size_t length, std::size_t wanted);
 
 }  // namespace detail
 
-/// RaysView from spans (or vectors, or arrays), whose lengths are checked.
+/// Makes a RaysView from spans (or vectors, or arrays) and checks their lengths.
 template <class Real>
 struct RaySpans {
     std::span<const Real> org_x, org_y, org_z;
     std::span<const Real> dir_x, dir_y, dir_z;
     std::span<const Real> t_min, t_max;
 
-    /// Valid as long as the arrays. Throws std::invalid_argument where one is longer than another.
+    /// Valid as long as the arrays. Throws std::invalid_argument unless all have one length.
     [[nodiscard]] RaysView<Real> view() const
     {
         const std::size_t count = org_x.size();
@@ -186,14 +188,14 @@ struct RaySpans {
     }
 };
 
-/// HitsView from spans, likewise; leave the normals empty where not wanted.
+/// Makes a HitsView from spans. The spans of normals may be empty.
 template <class Real>
 struct HitSpans {
     std::span<Real> t;
     std::span<std::int32_t> object;
     std::span<Real> normal_x = {}, normal_y = {}, normal_z = {};
 
-    /// For so many rays. Throws std::invalid_argument where an array has not that length.
+    /// Throws std::invalid_argument unless all arrays have `rays` elements.
     [[nodiscard]] HitsView<Real> view(std::size_t rays) const
     {
         detail::check_length("t", t.size(), rays);

@@ -12,14 +12,14 @@
 
 namespace packtrace {
 
-/// How many rays of each kind a frame took.
+/// The number of rays of each kind in a frame.
 struct FrameCounts {
     std::uint64_t camera = 0;
     std::uint64_t shadow = 0;
     std::uint64_t reflected = 0;
     std::uint64_t refracted = 0;
-    std::uint64_t unsure = 0;  ///< of all these, traced again in double (Accuracy::exact)
-    CutRays cut = {};          ///< besides
+    std::uint64_t unsure = 0;  ///< rays of all kinds, traced again in double (Accuracy::exact)
+    CutRays cut = {};          ///< rays that were not traced; not part of total()
 
     [[nodiscard]] std::uint64_t total() const
     {
@@ -27,24 +27,25 @@ struct FrameCounts {
     }
 };
 
-/// A scene made ready for the packet kernels, to be rendered any number of times. `Real` is
-/// float or double. Rendering is thread-safe and allocates nothing after a thread's first tile, but
-/// for lights' own views of a large scene, with the frame by which they pay: pictures stay the
-/// same, bit for bit.
+/// A scene prepared for the packet kernels, to be rendered any number of times. `Real` is float or
+/// double. Rendering is thread-safe. It does not allocate after a thread's first tile, with one
+/// exception: light buffers of a large scene are built with the frame in which they begin to save
+/// time. Light buffers do not change pictures, bit for bit.
 template <class Real>
 class Renderer {
 public:
-    /// Throws as render() does. `options.kernel` is not looked at.
+    /// Throws as render() does. `options.kernel` is ignored.
     PACKTRACE_API explicit Renderer(const Scene& scene, const RenderOptions& options = {});
     PACKTRACE_API ~Renderer();
     PACKTRACE_API Renderer(Renderer&&) noexcept;
     PACKTRACE_API Renderer& operator=(Renderer&&) noexcept;
 
-    /// Renders into `image`, whose size is the scene's, or the region's; an image of another size
-    /// is replaced. Throws StopError as RenderOptions::stop has it; `image` is then of no use.
+    /// Renders into `image`. An image that does not have the size of the scene, or of the region,
+    /// is replaced. Throws StopError after a stop request (RenderOptions::stop); the pixels of
+    /// `image` are then unspecified.
     PACKTRACE_API FrameCounts render(Image<Real>& image) const;
 
-    /// Memory held for the scene, its hierarchy included and threads' working memory not.
+    /// Bytes held for the scene and its bvh, without the working memory of threads.
     [[nodiscard]] PACKTRACE_API std::size_t scene_bytes() const;
 
     /// The instruction set in use.

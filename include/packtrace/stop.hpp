@@ -8,17 +8,17 @@
 
 namespace packtrace {
 
-/// Thrown by what was asked to stop before its end. What it was to fill in is filled in in part.
+/// Thrown by a function that was stopped before its end. Its output is incomplete.
 struct PACKTRACE_API StopError : std::runtime_error {
     using std::runtime_error::runtime_error;
 };
 
 /// Progress and cancellation of a long query of rays.
 struct QueryWatch {
-    /// When a stop is requested the query throws StopError after some thousand more rays.
+    /// After a stop request the query throws StopError, some thousand rays later.
     std::stop_token stop = {};
-    /// Called about a hundred times with the share of rays done, rising to 1, on the thread of the
-    /// query. May request a stop.
+    /// Receives the share of rays that are done, rising to 1. It is called about a hundred times at
+    /// most, on the thread of the query, and may request a stop.
     std::function<void(double)> progress = {};
 };
 

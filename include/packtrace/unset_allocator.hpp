@@ -10,14 +10,15 @@
 
 namespace packtrace {
 
-/// Memory at a 64-byte boundary; in huge pages (2 MiB), where the system has any, from a quarter of
-/// one on: the system takes its time for each page that is touched first. Throws std::bad_alloc.
+/// Allocates `bytes` bytes, aligned to at least 64 bytes. From a quarter of a huge page (2 MiB) on
+/// it uses huge pages, if the system has them, because the first touch of each page is slow. Throws
+/// std::bad_alloc.
 [[nodiscard]] PACKTRACE_API void* take_pages(std::size_t bytes);
-/// What take_pages() gave, or null.
+/// Frees the memory of take_pages(). `memory` may be null.
 PACKTRACE_API void return_pages(void* memory);
 
-/// Gives no value to elements that are given none: the first to look at a picture's memory, which
-/// the system takes its time for, are the threads that render it.
+/// Does not initialise elements that are constructed without arguments. So the first touch of a
+/// picture's memory, which is slow, is left to the threads that render the picture.
 template <class T>
 struct UnsetAllocator : std::allocator<T> {
     template <class Other>
@@ -33,7 +34,7 @@ struct UnsetAllocator : std::allocator<T> {
 
     [[nodiscard]] T* allocate(std::size_t count)
     {
-        // More than there can be is refused there, as headers have to compile where exceptions are
+        // On overflow take_pages() throws, because headers must compile with exceptions switched
         // off.
         constexpr std::size_t most = std::numeric_limits<std::size_t>::max();
         return static_cast<T*>(take_pages(count > most / sizeof(T) ? most : count * sizeof(T)));

@@ -7,16 +7,16 @@
 
 namespace packtrace {
 
-/// A point or direction in world space; left-handed, y up, z forward.
+/// A point or direction. World space is left-handed, with y up and z forward.
 using Vec3 = glm::dvec3;
 
-/// A linear colour or coefficient per channel; 1.0 is what scene files write as 255.
+/// A linear colour, or a coefficient per channel. Scene files write the colour 1.0 as 255.
 using Rgb = glm::dvec3;
 
 using Vec2 = glm::dvec2;
 using Mat3 = glm::dmat3;
 
-/// An affine map in homogeneous form; the last row is (0, 0, 0, 1).
+/// An affine map in homogeneous form; its last row is (0, 0, 0, 1).
 using Mat4 = glm::dmat4;
 
 static_assert(sizeof(Vec3) == 3 * sizeof(double),

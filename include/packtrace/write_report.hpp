@@ -9,30 +9,31 @@
 
 namespace packtrace {
 
-/// Where and how a report was made, for its reader.
+/// The machine and the build that a report was made with.
 struct ReportConditions {
     std::string processor;
-    int processors = 1;  ///< that the program may use
+    int processors = 1;  ///< number of processors the program may use
     std::string compiler;
     std::string commit;
     std::string command;
-    std::string flags = {};  ///< of the compiler, for the kernels
-    /// Of the machine when the program started: programs that run or wait.
+    std::string flags = {};  ///< compiler flags of the kernels
+    /// Load average (programs that run or wait) at the start of the program.
     double load_before = 0.0;
-    double load_after = 0.0;  ///< when all was measured
+    double load_after = 0.0;  ///< load average after the last measurement
 };
 
-/// Writes report.md, report.csv, report.json and report.html into `folder`, which is made, and for
-/// each scene a folder of pictures, heat maps and plots, called as the scene is. Files appear whole
-/// or not at all. Plots are drawn by gnuplot. Throws ImageError for a picture, std::runtime_error
-/// for another file, or a gnuplot that can't be run, and std::invalid_argument for two scenes of
-/// one name or a name that is not what report_folder_name() makes of it.
+/// Writes report.md, report.csv, report.json and report.html into `folder`, which it creates. Each
+/// scene gets a folder of its own name with pictures, heat maps and plots. Files appear complete or
+/// not at all. gnuplot draws the plots. Throws ImageError if a picture cannot be written, and
+/// std::runtime_error if another file cannot be written or gnuplot cannot be run. Throws
+/// std::invalid_argument if two scenes have one name, and for a name that report_folder_name()
+/// would change.
 PACKTRACE_API void write_report(const std::vector<SceneReport>& scenes,
                                 const ReportOptions& options, const ReportConditions& conditions,
                                 const std::filesystem::path& folder);
 
-/// A scene's name made one for a folder within the report's: printable UTF-8 that is no path, does
-/// not begin with a dot, and is none of the report's own files'.
+/// Turns a scene's name into the name of its folder in the report: printable UTF-8 that is not a
+/// path, does not begin with a dot, and is not the name of one of the report's files.
 [[nodiscard]] PACKTRACE_API std::string report_folder_name(const std::string& name);
 
 }  // namespace packtrace

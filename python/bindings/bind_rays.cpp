@@ -27,7 +27,7 @@ void check_count(const std::string& name, py::ssize_t count, std::size_t rays)
                               std::to_string(rays) + " rays; give one for each ray");
 }
 
-/// Columns of rays, and buffers of the threads that gather them.
+/// Columns of rays, and the threads' buffers for gathered columns.
 template <class Real, std::size_t columns>
 struct GatheredBlocks {
     ColumnBlocks<Real, columns> blocks;
@@ -86,7 +86,7 @@ public:
         with_real(points.dtype(), [&](auto real) {
             using Real = decltype(real);
             const HeldScene<Real> scene = ready<Real>();
-            scene->lit({}, light, to);  // refuses what is no light, also where there is no point
+            scene->lit({}, light, to);  // rejects a wrong light, even if there are no points
             GatheredBlocks<Real, 3> places{ColumnBlocks<Real, 3>(
                 {column_of(points, 0), column_of(points, 1), column_of(points, 2)})};
             for_each_ray_block(static_cast<std::size_t>(points.shape(0)),
@@ -155,7 +155,7 @@ public:
     }
 
 private:
-    /// Lets no object move while it lives.
+    /// Holds the lock, so that no object moves.
     template <class Real>
     struct HeldScene {
         std::shared_lock<std::shared_mutex> lock;
@@ -207,7 +207,7 @@ private:
         });
     }
 
-    /// Of rays that leave earlier hits.
+    /// The closest hits of rays that leave earlier hits.
     template <class Real>
     void closest_from(const RayArrays& rays, const py::array& point, const Numbers& surface,
                       const HitsView<Real>& hits)
@@ -240,7 +240,7 @@ private:
         py::array_t<std::int64_t> offsets(static_cast<py::ssize_t>(count + 1));
         std::int64_t* const offset = offsets.mutable_data();
         offset[0] = 0;
-        // By block, whose first ray is a multiple of the smallest block's size.
+        // One element per block. The first ray of a block is a multiple of the smallest block size.
         std::vector<std::vector<SurfaceHit<Real>>> found(count / gathered_rays + 1);
         for_rays<Real>(rays, [&](const RaysView<Real>& view, std::size_t first) {
             auto& hits = found[first / gathered_rays];
@@ -253,7 +253,7 @@ private:
         return joined(found, std::move(offsets));
     }
 
-    /// Throws where a number is below `least` or of no object; `name` is the caller's of the array.
+    /// Throws if an index is below `least` or no object has it. `name` is the name of the array.
     void check_objects(const Numbers& objects, std::int32_t least, const std::string& name) const
     {
         const auto count = static_cast<std::int64_t>(scenes_.object_count());

@@ -14,7 +14,7 @@
 namespace packtrace::python {
 namespace {
 
-/// One of both alone keeps the picture's shape.
+/// Sets the picture's size. One side alone keeps the aspect ratio.
 void set_size(Scene& scene, std::optional<int> width, std::optional<int> height)
 {
     for (const auto& [size, key] : {std::pair(width, "width"), std::pair(height, "height")})

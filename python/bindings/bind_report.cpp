@@ -19,7 +19,7 @@ py::object or_none(const std::string& text)
     return text.empty() ? py::object(py::none()) : py::str(text);
 }
 
-/// A run as report.csv has it.
+/// A run with the columns of report.csv.
 py::dict row_of(const SceneReport& scene, const StudyReport& study, const ReportRun& run)
 {
     const Variant& variant = run.variant;

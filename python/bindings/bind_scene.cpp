@@ -29,7 +29,7 @@ void warn(const std::vector<std::string>& lines)
             throw py::error_already_set();
 }
 
-/// Reads by `read(take_warning)`, and passes warnings on.
+/// Calls `read(take_warning)`, and turns warnings into Python warnings.
 template <class Read>
 py::object read(const Read& read)
 {
@@ -40,7 +40,7 @@ py::object read(const Read& read)
     return to_python(std::move(scene));
 }
 
-/// A transform after what `move` does to an object that has it.
+/// The transform of an object after `move`.
 template <class Move>
 py::tuple moved(py::handle transform, const Move& move)
 {

@@ -2,7 +2,7 @@
 
 #include <pybind11/pybind11.h>
 
-// What the compiled module is made of; bind_report() in builds with src/lab alone.
+// The parts of the compiled module. bind_report() exists only in builds with src/lab.
 namespace packtrace::python {
 
 void bind_compare(pybind11::module_& module);

@@ -11,7 +11,7 @@
 #include <utility>
 #include <vector>
 
-// Arrays of NumPy that hits go to.
+// NumPy arrays for hits.
 namespace packtrace::python {
 
 namespace py = pybind11;
@@ -24,7 +24,7 @@ T* pointer(py::array& array)
     return static_cast<T*>(array.mutable_data());
 }
 
-/// The three rows of an array (3, n), if there is one.
+/// Sets `rows` to the three rows of an array (3, n), if there is an array.
 template <class Real>
 void set_rows(Real* (&rows)[3], OptionalArray& array)
 {
@@ -32,7 +32,7 @@ void set_rows(Real* (&rows)[3], OptionalArray& array)
         rows[axis] = pointer<Real>(*array) + axis * array->shape(1);
 }
 
-/// Where hits go, checked and made by rays.py.
+/// The output arrays of hits. rays.py makes and checks them.
 struct HitArrays {
     py::array t;
     py::array object;
@@ -61,7 +61,8 @@ struct HitArrays {
     }
 };
 
-/// What the scalar kernel leaves out: normals of misses, and points, which misses have none of.
+/// Fills in what the scalar kernel does not write: normals of misses, and points, which are NaN for
+/// misses.
 template <class Real>
 void complete_scalar(const RaysView<Real>& rays, const HitsView<Real>& hits)
 {
@@ -80,8 +81,8 @@ void complete_scalar(const RaysView<Real>& rays, const HitsView<Real>& hits)
     }
 }
 
-/// The hits of all rays, block after block, behind where those of each ray begin: (offsets, t,
-/// object, normal).
+/// Joins the blocks of all hits into (offsets, t, object, normal). `offsets` has the start of each
+/// ray's hits.
 template <class Real>
 py::tuple joined(const std::vector<std::vector<SurfaceHit<Real>>>& found,
                  py::array_t<std::int64_t> offsets)

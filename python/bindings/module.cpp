@@ -1,5 +1,5 @@
-// The compiled part of the Python package packtrace: conversions, and calls of the library. What
-// users see, and what checks arrays, is in ../packtrace.
+// The compiled part of the Python package packtrace: conversions, and calls of the library. The
+// public functions and the checks of arrays are in ../packtrace.
 #include "bindings.hpp"
 #include "scene/language/quote.hpp"
 #include "scene/scene_faults.hpp"
@@ -31,8 +31,7 @@ void raise(const char* name, const std::string& text)
     PyErr_SetString(type.ptr(), text.c_str());
 }
 
-/// A message about a scene with the names that Python has for what the scene language calls
-/// something else.
+/// A message about a scene, with Python's names in place of different names in the scene language.
 std::string with_python_names(std::string text)
 {
     constexpr std::pair<std::string_view, std::string_view> names[] = {
@@ -48,17 +47,17 @@ std::string with_python_names(std::string text)
     return text;
 }
 
-/// Errors whose text is not the one that the library's has.
+/// Registers the errors whose text differs from that of the library.
 void translate_texts()
 {
     py::register_exception_translator([](std::exception_ptr thrown) {
         try {
             std::rethrow_exception(thrown);
         } catch (const packtrace::language::SceneFaultError& error) {
-            // A scene made in Python is that of its lists: what is wrong is at "lights[0]".
+            // For a scene made in Python the message has the index in a list: "lights[0]".
             raise("SceneError", with_python_names(error.fault.text_by_index()));
         } catch (const packtrace::ImageError& error) {
-            // A file's name need not be UTF-8, which Python's texts are.
+            // A file's name need not be UTF-8, but Python's texts must be.
             raise("ImageError", packtrace::language::escape(error.what()));
         }
     });

@@ -10,7 +10,7 @@
 namespace packtrace::python {
 namespace {
 
-/// Here a picture has a width, and a packet lanes.
+/// Checks `lanes`. In Python `width` is the width of a picture.
 void check_lanes(py::handle value, int lanes)
 {
     std::set<int> known{0};

@@ -6,8 +6,8 @@
 
 namespace packtrace::python {
 
-/// The keyword arguments that choose a kernel: kernel, isa, lanes, accuracy, self_hits, traversal,
-/// threads. Raises ValueError for one that is none of its words.
+/// The options from the keyword arguments that choose a kernel: kernel, isa, lanes, accuracy,
+/// self_hits, traversal, threads. Raises ValueError for a word that an argument does not have.
 [[nodiscard]] RenderOptions kernel_options(const pybind11::kwargs& arguments);
 
 }  // namespace packtrace::python

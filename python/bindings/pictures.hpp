@@ -12,7 +12,7 @@ namespace packtrace::python {
 
 namespace py = pybind11;
 
-/// An array of the picture's own memory, which lives as long as the array.
+/// An array in the picture's own memory, which it keeps alive.
 template <class Real>
 [[nodiscard]] py::array to_array(Image<Real>&& image)
 {
@@ -35,7 +35,7 @@ template <class Real>
     return image;
 }
 
-/// Calls `use` with a zero of the type that an array's dtype, float32 or float64, stands for.
+/// Calls `use` with a zero of the type of a dtype, float32 or float64.
 template <class Use>
 auto with_real(const py::dtype& dtype, const Use& use)
 {

@@ -11,8 +11,9 @@ namespace packtrace::python {
 
 namespace py = pybind11;
 
-/// Calls a Python function, or None, with the share of work done, from any thread, and looks for
-/// Ctrl-C on the thread that made this. What is raised first is kept, and asks the work to stop.
+/// Calls a Python function, or None, with the share of the work that is done, from any thread. Also
+/// checks for Ctrl-C, on the thread that constructed it. The first exception is kept, and stops the
+/// work.
 class Progress {
 public:
     explicit Progress(py::object call) : call_(std::move(call)), wanted_(!call_.is_none())
@@ -28,7 +29,7 @@ public:
     void operator()(const Arguments&... arguments)
     {
         const bool sees_signals = std::this_thread::get_id() == maker_;
-        // Waiting for the GIL is left out where nobody asks for it.
+        // Do not wait for the GIL unless it is needed.
         if ((!wanted_ && !sees_signals) || stop_.stop_requested())
             return;
         const py::gil_scoped_acquire acquire;
@@ -45,7 +46,7 @@ public:
         }
     }
 
-    /// Raises what the function raised. With the GIL.
+    /// Rethrows the function's exception. The caller must hold the GIL.
     void raise() const
     {
         if (raised_)

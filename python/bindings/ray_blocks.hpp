@@ -11,12 +11,12 @@
 
 namespace packtrace::python {
 
-/// Between so many rays Ctrl-C is looked for; of slow queries, between fewer. Multiples of all
-/// sizes of blocks.
+/// The number of rays between checks for Ctrl-C; fewer for slow queries. They are multiples of all
+/// block sizes.
 inline constexpr std::size_t rays_between_signals = std::size_t{1} << 20;
 inline constexpr std::size_t slow_rays_between_signals = std::size_t{1} << 16;
 
-/// Calls `work(first, count)` for the blocks of [begin, end), on `threads` threads, 0 for one a
+/// Calls `work(first, count)` for the blocks of [begin, end) on `threads` threads; 0 is one per
 /// processor.
 template <class Work>
 void for_each_block(std::size_t begin, std::size_t end, std::size_t block, int threads,
@@ -35,7 +35,7 @@ void for_each_block(std::size_t begin, std::size_t end, std::size_t block, int t
     run_on_threads(threads, [&] { tbb::parallel_for(std::size_t{0}, blocks, one); });
 }
 
-/// The same for all rays, without the GIL; Ctrl-C ends it.
+/// Calls `work(first, count)` for the blocks of all rays, without the GIL. Ctrl-C ends it.
 template <class Work>
 void for_each_ray_block(std::size_t count, std::size_t block, int threads, const Work& work,
                         std::size_t between_signals = rays_between_signals)

@@ -11,12 +11,12 @@
 #include <cstring>
 #include <vector>
 
-// Rays in arrays of any strides, block by block as columns.
+// Reads rays from arrays with any strides, block by block, as columns.
 namespace packtrace::python {
 
 namespace py = pybind11;
 
-/// One component of rays where NumPy has it: `stride` bytes from one ray to the next.
+/// One component of rays in NumPy's memory, with `stride` bytes from one ray to the next.
 struct Column {
     const char* data = nullptr;
     std::ptrdiff_t stride = 0;
@@ -29,7 +29,7 @@ template <class Real>
            reinterpret_cast<std::uintptr_t>(column.data) % alignof(Real) == 0;
 }
 
-/// The columns of an array (n, 3), or the one of an array (n,).
+/// A column of an array (n, 3), or the only one of an array (n,).
 [[nodiscard]] inline Column column_of(const py::array& array, py::ssize_t axis = 0)
 {
     const auto* const data = static_cast<const char*>(array.data());
@@ -37,18 +37,19 @@ template <class Real>
     return {data + axis * step, array.shape(0) == 0 ? 0 : array.strides(0)};
 }
 
-/// How many rays are sorted into columns at a time, and traced at a time where they need not be.
+/// The rays per block: if they are sorted into columns, and if columns are used directly.
 inline constexpr std::size_t gathered_rays = 4096;
 inline constexpr std::size_t direct_rays = 65536;
-/// Where a column is one number for all rays: written once, it has to stay in the cache.
+/// The rays per block if a column is one number for all rays. The column is written once and must
+/// stay in the cache.
 inline constexpr std::size_t constant_rays = 16384;
 
-/// Columns of `count` elements, of which blocks are asked for. A column that is contiguous is used
-/// where it is, one that is the same for all rays is written once, others are gathered.
+/// Blocks of columns of `count` elements. A contiguous column is used directly, a column with one
+/// number for all rays is written once, and other columns are gathered.
 template <class Real, std::size_t columns>
 class ColumnBlocks {
 public:
-    /// Room of a thread's own for gathered columns.
+    /// A thread's memory for gathered columns.
     using Buffer = std::vector<Real>;
 
     explicit ColumnBlocks(const std::array<Column, columns>& sources) : sources_(sources)
@@ -68,7 +69,7 @@ public:
         return block_;
     }
 
-    /// The columns of rays [first, first + count), count at most block_size().
+    /// The columns of the rays [first, first + count). `count` is at most block_size().
     [[nodiscard]] std::array<const Real*, columns> block(std::size_t first, std::size_t count,
                                                          Buffer& buffer) const
     {
@@ -109,7 +110,7 @@ private:
         return buffer.data() + column * block_;
     }
 
-    /// The components of vectors, which start at column `x`, in one pass.
+    /// Gathers the components of vectors, which start at column `x`, in one pass.
     void gather_vectors(std::size_t x, std::size_t first, std::size_t count, Buffer& buffer) const
     {
         const char* from[3];
@@ -132,8 +133,7 @@ private:
         }
     }
 
-    /// Of vectors one right behind the other, as most arrays (n, 3) are: their distance is known
-    /// to the compiler.
+    /// Splits contiguous vectors, as in most arrays (n, 3). The compiler knows their distance.
     static void split_vectors(const Real* from, std::size_t count, Real* const (&to)[3])
     {
         Real* const x = to[0];

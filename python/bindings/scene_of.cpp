@@ -36,7 +36,7 @@ Sphere sphere_of(py::handle sphere)
     return {field<Vec3>(sphere, "center"), field<double>(sphere, "radius")};
 }
 
-/// Keeps a normal that is unit as it is, so that what was read stays what it was.
+/// Does not normalise a unit normal, so that a scene that was read keeps its digits.
 Plane plane_of(py::handle value)
 {
     const auto normal = field<Vec3>(value, "normal");
@@ -117,7 +117,7 @@ Light light_of(py::handle value)
             field<Vec3>(value, "vector"), field<bool>(value, "casts_shadow")};
 }
 
-/// Calls `convert`; what it finds wrong is said behind what it is about, where that has a name.
+/// Calls `convert`. Its errors get the prefix `what`, unless that is empty.
 template <class Convert>
 auto about(const std::string& what, const Convert& convert)
 {
@@ -234,7 +234,7 @@ private:
         throw_wrong("surface", value, "a Sphere, Plane, Quadric or Polygon");
     }
 
-    /// Objects share materials: each is looked at once.
+    /// Converts each material once, because objects share materials.
     [[nodiscard]] const Material& material(py::handle value)
     {
         if (value.is_none())
@@ -291,8 +291,8 @@ private:
         return result;
     }
 
-    /// Kept, as a property may give each object a new one: in the place of one that is gone Python
-    /// puts the next.
+    /// Keeps the Python object alive. Otherwise, if a property returns a new material each time,
+    /// Python could give the next one the same address.
     struct KeptMaterial {
         py::object kept;
         Material material;

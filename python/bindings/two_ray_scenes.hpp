@@ -18,9 +18,9 @@
 
 namespace packtrace::python {
 
-/// A scene for rays of either precision, each made ready when it is asked for first. Threads may
-/// ask at once; where objects move, one waits for the other. All members are to be called without
-/// the GIL, which a thread that is waited for may want.
+/// A scene for rays of both precisions. Each is prepared at its first use. Queries of several
+/// threads may run at once; moving objects waits for them. All members must be called without the
+/// GIL, because another thread that they wait for may need it.
 class TwoRayScenes {
 public:
     TwoRayScenes(Scene scene, const RenderOptions& options)
@@ -28,7 +28,7 @@ public:
     {
         validate(scene_);
         check_kernel(options_);
-        // Throws where there is no such kernel.
+        // Throws if there is no such kernel.
         if (options_.kernel == Kernel::packet)
             options_.isa = choose_isa(options_.isa, options_.width).name;
     }
@@ -38,20 +38,20 @@ public:
         return options_.threads;
     }
 
-    /// Moving objects does not change their number.
+    /// The number of objects. Moving objects does not change it.
     [[nodiscard]] std::size_t object_count() const
     {
         return scene_.objects.size();
     }
 
-    /// While it lives, no object moves. Not to be held twice by one thread.
+    /// No object moves while the lock is held. A thread must not hold it twice.
     [[nodiscard]] std::shared_lock<std::shared_mutex> hold()
     {
         const std::lock_guard turn(turn_);
         return std::shared_lock(moving_);
     }
 
-    /// With `hold`.
+    /// The caller must hold the lock of hold().
     template <class Real>
     [[nodiscard]] const RayScene<Real>& of()
     {
@@ -62,7 +62,7 @@ public:
         return *made;
     }
 
-    /// Objects are where they are in `scene`.
+    /// Moves objects to their places in `scene`.
     SceneUpdate update(Scene scene)
     {
         const auto lock = hold_alone();
@@ -73,7 +73,7 @@ public:
         return done;
     }
 
-    /// Objects, by their numbers, get these transforms. Where that throws, all stays as it was.
+    /// Sets the transforms of objects, given by index. If it throws, nothing changes.
     SceneUpdate transform(std::span<const std::int32_t> objects, std::vector<Mat4> transforms)
     {
         const auto lock = hold_alone();
@@ -89,14 +89,14 @@ public:
     }
 
 private:
-    /// Waits for those that hold it, and has those that come later wait in their turn.
+    /// Waits for all holders of the lock. Threads that come later wait for this one.
     [[nodiscard]] std::unique_lock<std::shared_mutex> hold_alone()
     {
         const std::lock_guard turn(turn_);
         return std::unique_lock(moving_);
     }
 
-    /// Updates what is made, and else checks the scene alone.
+    /// Updates the precisions that are prepared. If there are none, it only checks the scene.
     template <class Update>
     SceneUpdate update_made(const Update& update, const Scene& scene)
     {
@@ -116,7 +116,8 @@ private:
         return all;
     }
 
-    /// As RayScene::update() has it: else a precision that is made later had other shadows.
+    /// Keeps the shadows as RayScene::update() does. Otherwise a precision that is prepared later
+    /// would have other shadows.
     void keep_shadows(Scene& scene) const
     {
         scene.lights = scene_.lights;
@@ -133,7 +134,7 @@ private:
     Scene scene_;
     RenderOptions options_;
     std::mutex making_;
-    std::mutex turn_;  ///< a shared mutex by itself lets those who share it go on before others
+    std::mutex turn_;  ///< a shared mutex alone would prefer threads that share it
     std::shared_mutex moving_;
     std::tuple<std::unique_ptr<RayScene<float>>, std::unique_ptr<RayScene<double>>> made_;
 };

@@ -6,10 +6,10 @@
 namespace packtrace::python {
 namespace {
 
-/// A sequence's element or a number, as double; false for anything else.
+/// Reads a number, or an element of a sequence, as double. Returns false for other values.
 bool read_number(py::handle value, double& to)
 {
-    // A bool or a text is no number, although Python would make one of it.
+    // Rejects a bool and a text, which Python would convert to a number.
     if (PyBool_Check(value.ptr()) != 0 || PyUnicode_Check(value.ptr()) != 0)
         return false;
     to = PyFloat_AsDouble(value.ptr());
@@ -49,7 +49,7 @@ py::tuple rows_of(const Matrix& value)
     return rows;
 }
 
-/// An array's rows come on a line each.
+/// Joins the lines of a text. The repr of an array has one line per row.
 py::object on_one_line(py::object text)
 {
     py::list lines = text.attr("splitlines")();
@@ -62,7 +62,7 @@ py::object on_one_line(py::object text)
 
 void throw_wrong(const std::string& key, py::handle value, const std::string& use)
 {
-    // Characters: a text that is cut within one is no message.
+    // Counted in characters, so that none is cut.
     constexpr py::ssize_t longest = 60;
     const py::object all = on_one_line(py::repr(value));
     const bool is_long = PyUnicode_GET_LENGTH(all.ptr()) > longest;
@@ -98,7 +98,7 @@ void read_numbers(py::handle value, const std::string& key, double* to, std::siz
     const std::string use = std::to_string(count) + " numbers";
     if (PyUnicode_Check(value.ptr()) != 0)
         throw_wrong(key, value, use);
-    // A tuple, which stays as it is: an element's __float__ may shorten the list that it is in.
+    // A tuple, because it cannot change: an element's __float__ could shorten its list.
     const auto elements = py::reinterpret_steal<py::object>(PySequence_Tuple(value.ptr()));
     if (!elements) {
         PyErr_Clear();
@@ -113,7 +113,7 @@ void read_numbers(py::handle value, const std::string& key, double* to, std::siz
 
 std::vector<py::object> elements_of(py::handle value, const std::string& key)
 {
-    // An iterator would be empty the next time.
+    // Rejects iterators, which would be empty at the next conversion.
     if (PyUnicode_Check(value.ptr()) != 0 || PyIter_Check(value.ptr()) != 0 ||
         !py::isinstance<py::iterable>(value))
         throw_wrong(key, value, "a list");

@@ -10,8 +10,8 @@
 #include <string>
 #include <vector>
 
-// Numbers, words and vectors from Python and back. What they are given for, `key`, is named by the
-// ValueError that a wrong one raises.
+// Converts numbers, words and vectors from Python and back. Wrong values raise ValueError, which
+// names the `key` that the value is for.
 namespace packtrace::python {
 
 namespace py = pybind11;
@@ -19,11 +19,11 @@ namespace py = pybind11;
 /// "radius is 'big'; use a number".
 [[noreturn]] void throw_wrong(const std::string& key, py::handle value, const std::string& use);
 
-/// A text as UTF-8, and what to_python() makes of other bytes as those; nothing for anything else,
-/// and for a text that has no UTF-8 (any other surrogate alone).
+/// A text as UTF-8. The surrogates of to_python() become the original bytes. Not set for other
+/// values, and for a text that cannot be UTF-8, because it has another single surrogate.
 [[nodiscard]] std::optional<std::string> text_of(py::handle value);
 
-/// UTF-8 as a text. Scenes may be in another encoding: other bytes become surrogates, one each.
+/// A text from UTF-8. Scenes may have another encoding, so each other byte becomes a surrogate.
 [[nodiscard]] py::str to_python(const std::string& text);
 
 void from_python(py::handle value, const std::string& key, double& to);
@@ -35,10 +35,10 @@ void from_python(py::handle value, const std::string& key, Vec3& to);
 void from_python(py::handle value, const std::string& key, Mat3& to);
 void from_python(py::handle value, const std::string& key, Mat4& to);
 
-/// `count` numbers of any sequence.
+/// Reads `count` numbers from any sequence.
 void read_numbers(py::handle value, const std::string& key, double* to, std::size_t count);
 
-/// The elements of any sequence; an iterator is none.
+/// The elements of any sequence. An iterator is not a sequence.
 [[nodiscard]] std::vector<py::object> elements_of(py::handle value, const std::string& key);
 
 /// A colour: three numbers, or one for all channels.
@@ -72,7 +72,7 @@ template <class T>
     return result;
 }
 
-/// None is no value.
+/// Not set for None.
 template <class T>
 [[nodiscard]] std::optional<T> optional_of(py::handle value, const std::string& key)
 {

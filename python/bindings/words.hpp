@@ -9,13 +9,13 @@
 
 #include <string>
 
-// The words that stand for values of enumerations: those of the scene language and of the program.
+// The words for values of enumerations, from the scene language and the program.
 namespace packtrace::python {
 
 using language::spellings;
 using language::word_of;
 
-/// The value that a word stands for.
+/// The value of a word.
 template <class Enum>
 [[nodiscard]] Enum word_value(py::handle value, const std::string& key)
 {

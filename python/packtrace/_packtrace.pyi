@@ -1,5 +1,5 @@
-"""The compiled part of packtrace: conversions, and calls of the library. The package's other modules
-are what users see; they check arrays before they are given to it."""
+"""The compiled part of packtrace: conversions, and calls of the library. Users see only the
+package's other modules, which check arrays before they pass them on."""
 
 from typing import Any, Callable, Dict, List, Optional, Sequence, Tuple, Union
 
@@ -13,10 +13,10 @@ _Matrix3 = Tuple[Tuple[float, float, float], ...]
 _Matrix4 = Tuple[Tuple[float, float, float, float], ...]
 
 class SceneError(ValueError):
-    """A scene that cannot be used: one line that says where, what, why and what to do."""
+    """A scene cannot be used. The message is one line that says where, what, why and what to do."""
 
 class ImageError(OSError):
-    """A picture that cannot be read or written: one line that names the file."""
+    """A picture cannot be read or written. The message is one line that names the file."""
 
 class NativeObjects:
     def take(self) -> List[Object]: ...

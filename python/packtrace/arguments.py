@@ -1,5 +1,5 @@
-"""Arguments of functions, as the compiled part takes them. What is wrong raises ValueError, in one line
-that says what it is and what to use."""
+"""Converts arguments for the compiled part. Wrong ones raise ValueError, in one line that shows the
+value and says what to use."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ Path = Union[str, bytes, "os.PathLike[str]", "os.PathLike[bytes]"]
 
 
 def shown(value: Any) -> str:
-    """What a value is, on one line that is not long."""
+    """A short text of a value, on one line."""
     line = " ".join(part.strip() for part in repr(value).splitlines())
     return line if len(line) <= 60 else line[:60] + "..."
 
@@ -30,7 +30,7 @@ def whole(name: str, value: Any, most: int = 2**31 - 1) -> int:
 
 def number(name: str, value: Any) -> float:
     try:
-        if isinstance(value, (str, bytes)):  # which Python would read
+        if isinstance(value, (str, bytes)):  # float() would read it
             raise TypeError
         return float(value)
     except (TypeError, ValueError):
@@ -40,7 +40,7 @@ def number(name: str, value: Any) -> float:
 
 
 def precision(dtype: Any) -> np.dtype[Any]:
-    """What the argument `dtype` names."""
+    """The dtype of the argument `dtype`, float32 or float64."""
     try:
         result: np.dtype[Any] = np.dtype(dtype)
     except (TypeError, ValueError):
@@ -51,14 +51,15 @@ def precision(dtype: Any) -> np.dtype[Any]:
 
 
 def text(name: str, value: Any) -> bytes:
-    """A text as UTF-8; what a scene in another encoding had for bytes, as those."""
+    """A text as UTF-8. Surrogate escapes become the bytes of a scene in another encoding."""
     if not isinstance(value, (str, bytes)):
         raise ValueError(f"{name} is {shown(value)}; use a text")
     return value if isinstance(value, bytes) else value.encode(errors="surrogateescape")
 
 
 def file_name(file: Path) -> bytes:
-    """A file's name as the system has it, which need not be UTF-8. A zero byte would end it there."""
+    """A file's name in the system's encoding, which need not be UTF-8. Rejects a zero byte, which
+    would end the name."""
     name = os.fsencode(file)
     if b"\0" in name:
         raise ValueError(f"the file name {os.fsdecode(name)!r} has a zero byte; use a name without")

@@ -1,4 +1,4 @@
-"""Pictures: arrays that notebooks show, made by `render` and read from files."""
+"""Pictures are arrays that notebooks display. `render` and `read_image` make them."""
 
 from __future__ import annotations
 
@@ -14,17 +14,18 @@ from .scene import Array, Scene
 
 @dataclass
 class CutRays:
-    """Rays that `Scene.min_weight` left out, and the most that any channel is off by that."""
+    """The number of rays that were not traced because of `Scene.min_weight`, and the bound of the
+    resulting error of any channel."""
 
     rays: int
     bound: float
 
 
 class Picture(np.ndarray[Any, Any]):
-    """An array (height, width, 3) of linear red, green and blue, 1.0 for full, not clamped; rows from
-    the top. It is an array like any other, and notebooks show it as a picture."""
+    """An array (height, width, 3) of linear r, g, b values, with rows from the top. 1.0 is full
+    intensity; values are not clamped. It is a NumPy array that notebooks display as a picture."""
 
-    #: What `Scene.min_weight` left out of a rendered picture; None of others.
+    #: The rays that `Scene.min_weight` cut from a rendered picture; None for other pictures.
     cut: Optional[CutRays] = None
 
     def save(self, file: Path, *, gamma: float = 1.0) -> None:
@@ -32,7 +33,7 @@ class Picture(np.ndarray[Any, Any]):
         write_image(file, self, gamma=gamma)
 
     def __array_wrap__(self, array: Any, *context: Any) -> Any:
-        # A mean or a largest value is a number, not a picture without pixels.
+        # Results such as a mean become numbers, not pictures without pixels.
         wrapped = super().__array_wrap__(array, *context)
         return wrapped[()] if wrapped.ndim == 0 else wrapped
 
@@ -52,7 +53,7 @@ class PixelError:
 
 @dataclass
 class Comparison:
-    """The distance between two pictures, in their linear values."""
+    """The difference between two pictures, in linear values."""
 
     max_abs: float
     rmse: float  #: over all channels of all pixels
@@ -71,25 +72,26 @@ def render(scene: Scene, *, width: Optional[int] = None, height: Optional[int] =
            threads: int = 0, samples: int = 1, adaptive: Optional[float] = None,
            region: Optional[Tuple[int, int, int, int]] = None,
            progress: Optional[Callable[[float], Any]] = None) -> Picture:
-    """Renders a scene: an array (height, width, 3) of float32, or of float64 with dtype=np.float64.
+    """Renders a scene. Returns an array (height, width, 3) of float32, or of float64 with
+    dtype=np.float64.
 
-    width, height: pixels, instead of the scene's; one alone keeps the picture's shape.
+    width, height: pixels, instead of the scene's; one of them alone keeps the aspect ratio.
     dtype: np.float32 or np.float64; None is the default, np.float32.
-    frame: the frame of the scene's animation, 0 being the first.
+    frame: the frame of the scene's animation, from 0.
     kernel, isa, lanes, accuracy, self_hits, traversal: as for RayScene.
-    force_general: uses the packet kernel that knows everything; the picture is the same.
-    threads: 0 is one a processor. The picture is the same whatever their number.
-    samples: a pixel, 1 to 1024, whose mean is its colour.
-    adaptive: contrast of 0 or more above which a pixel gets its samples; others get one.
-    region: (x, y, width, height) of a part of the picture, pixels from its upper left corner; the
-        array then has that part alone.
-    progress: called now and then with the share done, 0 to 1, from any thread. What it raises ends
-        the rendering, as Ctrl-C does.
+    force_general: uses the packet kernel with all features; the picture is the same.
+    threads: 0 is one per processor. The picture does not depend on it.
+    samples: samples per pixel, 1 to 1024; the colour is their mean.
+    adaptive: the contrast, 0 or more, above which a pixel gets all samples; other pixels get one.
+    region: (x, y, width, height) of a part of the picture, in pixels from its upper left corner;
+        the array then has only this part.
+    progress: receives the share that is done, 0 to 1, from time to time, on any thread. An
+        exception in it ends the rendering, as Ctrl-C does.
 
     The array is the renderer's own memory, not a copy. Raises SceneError for a scene that cannot be
-    used, ValueError for an impossible option.
+    used, and ValueError for an impossible option.
     """
-    if dtype is None:  # which NumPy takes for float64
+    if dtype is None:  # NumPy would take it for float64
         dtype = np.float32
     array, cut = _packtrace.render(
         scene, width=width, height=height, dtype=precision(dtype), frame=frame, kernel=kernel,
@@ -103,35 +105,37 @@ def render(scene: Scene, *, width: Optional[int] = None, height: Optional[int] =
 
 
 def compare(a: Array, b: Array, *, threshold: float = 1 / 255, worst: int = 5) -> Comparison:
-    """Compares two pictures (height, width, 3) of one size and dtype, float32 or float64, which are
-    copied. A pixel with an error above `threshold` counts as off; the `worst` ones are listed."""
+    """Compares two pictures (height, width, 3) with equal size and dtype, float32 or float64. They
+    are copied. A pixel with an error above `threshold` counts as off. Lists the `worst` pixels with
+    the largest errors."""
     numbers, pixels = _packtrace.compare(*_two_pictures(a, b), number("threshold", threshold),
                                          whole("worst", worst))
     return Comparison(*numbers, [PixelError(*pixel) for pixel in pixels])
 
 
 def heatmap(a: Array, b: Array) -> Picture:
-    """The error of each pixel as a colour: black for none, through blue, green, yellow and red to
-    white for the largest, over six decades."""
+    """The error of each pixel as a colour, from black for no error through blue, green, yellow and
+    red to white for the largest error. The scale is logarithmic, over six decades."""
     return _packtrace.heatmap(*_two_pictures(a, b)).view(Picture)
 
 
 def read_image(file: Path) -> Picture:
-    """The picture in a .png, .pfm or .hdr file, float32; 8-bit values v become v / 255. Raises
-    ImageError."""
+    """Reads a .png, .pfm or .hdr file as float32. 8-bit values v become v / 255. Raises ImageError
+    if the file cannot be read."""
     return _packtrace.read_image(file_name(file)).view(Picture)
 
 
 def write_image(file: Path, picture: Array, *, gamma: float = 1.0) -> None:
-    """Writes a picture (height, width, 3) by the file's extension: .png (8 bits, raised to 1 / gamma),
-    .pfm (float32) or .hdr, which are linear and take no gamma. The file appears whole or not at all.
-    Raises ImageError, and ValueError for an impossible gamma."""
+    """Writes a picture (height, width, 3) in the format of the file's extension: .png (8 bits,
+    raised to 1 / gamma), .pfm (float32) or .hdr; the last two are linear and accept no gamma. The
+    file appears complete or not at all. Raises ImageError if it cannot be written, and ValueError
+    for an impossible gamma."""
     _packtrace.write_image(file_name(file), _picture(picture, "picture"),
                            number("gamma", gamma))
 
 
 def to_png(picture: Array, *, gamma: float = 1.0) -> bytes:
-    """The bytes of an 8-bit PNG file of a picture (height, width, 3)."""
+    """The bytes of an 8-bit PNG file with a picture (height, width, 3)."""
     return _packtrace.to_png(_picture(picture, "picture"), number("gamma", gamma))
 
 

@@ -1,11 +1,13 @@
-"""Rays of the caller's own, asked of a scene.
+"""Queries of a scene with the caller's own rays.
 
-Rays are NumPy arrays of float32 or float64, which says the precision of the answer: `origins` and
-`directions` of shape (..., 3), `t_min` and `t_max` numbers or arrays of shape (...). Answers have the
-shape (...) too. An array is read where it is. Its components may lie in any order and at any stride;
-arrays whose components are contiguous each, as those of `np.empty((3, n)).T`, are the quickest, the
-others are sorted into components some thousand rays at a time. Other sequences than arrays are
-copied, as float64; texts are not read as numbers. All work runs without the GIL.
+Rays are NumPy arrays of float32 or float64; the dtype is also the precision of the answers.
+`origins` and `directions` have the shape (..., 3), `t_min` and `t_max` are numbers or arrays of
+shape (...). Answers have the shape (...), too.
+
+Arrays are read in place, with any strides. Arrays with contiguous components, such as
+`np.empty((3, n)).T`, are the fastest; others are sorted into components some thousand rays at a
+time. Sequences other than arrays are copied, as float64; texts are not read as numbers. All work
+runs without the GIL.
 """
 
 from __future__ import annotations
@@ -26,12 +28,12 @@ Detail = Literal["t", "normal", "point", "start"]
 
 @dataclass(eq=False)
 class Starts:
-    """Rays' origins on the surfaces of earlier hits, made by `Hits.leave`. Rays that start there hit
-    that surface again only where they truly do."""
+    """Origins of rays on the surfaces of earlier hits, made by `Hits.leave`. Rays that start there
+    hit their surface again only at a true second hit."""
 
-    origin: Array  #: (..., 3), scene units; NaN where nothing was hit
-    point: Array  #: (..., 3), the hits' own points
-    surface: Array  #: (...), int32, numbers for RayScene
+    origin: Array  #: (..., 3), scene units; NaN for a miss
+    point: Array  #: (..., 3), the hit points
+    surface: Array  #: (...), int32, surface numbers for RayScene
 
 
 @dataclass(eq=False)
@@ -42,10 +44,10 @@ class Hits:
     object: Array  #: (...), int32, index in Scene.objects; -1 for a miss
     normal: Optional[Array] = None  #: (..., 3), unit, outwards; 0 for a miss
     point: Optional[Array] = None  #: (..., 3), scene units; NaN for a miss
-    #: (..., 3), where rays may start that leave the surface on its outer side
+    #: (..., 3), origins for rays that leave the surface on its outer side
     outer_start: Optional[Array] = None
-    inner_start: Optional[Array] = None  #: (..., 3), the same of its inner side
-    surface: Optional[Array] = None  #: (...), int32, a number for `leave`; NO_START for a miss
+    inner_start: Optional[Array] = None  #: (..., 3), origins for the inner side
+    surface: Optional[Array] = None  #: (...), int32, number for `leave`; NO_START for a miss
 
     @property
     def hit(self) -> Array:
@@ -53,8 +55,8 @@ class Hits:
         return self.object >= 0
 
     def leave(self, directions: Array) -> Starts:
-        """Starts of rays that go on from these hits in `directions` (..., 3), mirrored or refracted.
-        Needs hits of detail="start"."""
+        """Starts for rays from these hits in `directions` (..., 3), such as mirrored or refracted
+        rays. Needs hits with detail="start"."""
         if (self.surface is None or self.normal is None or self.point is None or
                 self.outer_start is None or self.inner_start is None):
             raise ValueError('these hits have no starts; ask for them: closest(..., detail="start")')
@@ -71,8 +73,8 @@ class Hits:
 
 @dataclass(eq=False)
 class AllHits:
-    """Every hit of each ray, sorted by t. Those of ray i are [offsets[i]:offsets[i + 1]] of the other
-    arrays; rays of several dimensions are counted in C order."""
+    """All hits of each ray, sorted by t. The hits of ray i are [offsets[i]:offsets[i + 1]] of the
+    other arrays. Rays of several dimensions are numbered in C order."""
 
     offsets: Array  #: (rays + 1,), int64
     t: Array  #: (hits,)
@@ -81,33 +83,34 @@ class AllHits:
 
     @property
     def ray(self) -> Array:
-        """Shape (hits,), int64: the number of each hit's ray."""
+        """Shape (hits,), int64: the index of each hit's ray."""
         return np.repeat(np.arange(len(self.offsets) - 1), np.diff(self.offsets))
 
 
 @dataclass
 class SceneUpdate:
-    """What moving objects did."""
+    """What `RayScene.update` or `RayScene.transform` did."""
 
-    rebuilt: bool  #: all was built anew; else the hierarchy's boxes followed the objects
-    cost: float  #: how many boxes a random line enters, against the hierarchy when it was built
+    rebuilt: bool  #: True: everything was rebuilt; False: the bvh was refitted
+    #: expected number of boxes that a random line enters, relative to the bvh when it was built
+    cost: float
 
 
 class RayScene:
-    """A scene made ready for rays. It copies what it needs: later changes to `scene` count when
-    `update` is called.
+    """A scene prepared for rays. It copies what it needs, so later changes of `scene` have no
+    effect before a call of `update`.
 
-    kernel: "packet", or "scalar" for the reference, which refuses isa, lanes, traversal and "fast".
+    kernel: "packet", or "scalar" for the reference, which rejects isa, lanes, traversal and "fast".
     isa: instruction set of the packet kernel, see `packtrace.isas()`; "auto" takes the widest.
-    lanes: 1, 4, 8 or 16 rays of floats in a packet; 0 is any.
-    accuracy: "exact", or "fast" for single precision alone in rays of float32.
+    lanes: 1, 4, 8 or 16 float rays per packet; 0 is any.
+    accuracy: "exact", or "fast" for single precision only with float32 rays.
     self_hits: "exact", or "note" for rays that start 0.001 along their direction.
     traversal: "auto", "list" or "tree".
-    threads: how many work on a call; 0 is one a processor. Answers don't depend on it.
-    dtype: what rays will be of, to have that precision ready at once; else with the first rays.
+    threads: number of threads for a call; 0 is one per processor. Answers do not depend on it.
+    dtype: prepares the scene for rays of this dtype at once; None prepares it with the first rays.
 
     All members may be called from several threads at once. Ctrl-C stops them. Raises SceneError for a
-    scene that cannot be used, ValueError for an impossible option.
+    scene that cannot be used, and ValueError for an impossible option.
     """
 
     def __init__(self, scene: Scene, *, kernel: Literal["packet", "scalar"] = "packet",
@@ -124,16 +127,20 @@ class RayScene:
             self._native.prepare(precision(dtype))
 
     def update(self, scene: Scene) -> SceneUpdate:
-        """Takes over where the objects of `scene` are now: surfaces and transforms of the objects, in
-        their order, that this was made of. Answers are from then on those of RayScene(scene), which
-        takes several times as long; but lights, and what casts shadows, stay as they were. Where it
-        raises SceneError, or ValueError for another number of objects, answers stay those of before.
-        Waits until other threads' rays are done."""
+        """Moves objects: reads the surfaces and transforms from `scene`, which must have the same
+        objects in the same order. Afterwards all answers equal those of RayScene(scene), which
+        takes several times as long, except that lights and `casts_shadow` do not change. Raises
+        SceneError, and ValueError for a different number of objects; the answers are then the same
+        as before. Waits for the rays of other threads."""
         return SceneUpdate(*self._native.update(scene))
 
     def transform(self, objects: Any, transforms: Any) -> SceneUpdate:
-        """The same for the objects of these numbers alone, (n,), which get the transforms (n, 4, 4),
-        float64, rows first: Object.transform. The quick way to move many."""
+        """Sets Object.transform of some objects, and is otherwise like `update`. It is the fast way
+        to move many objects.
+
+        objects: (n,), indices in Scene.objects.
+        transforms: (n, 4, 4), float64, rows first.
+        """
         numbers, matrices = np.asarray(objects), np.asarray(transforms)
         if numbers.size == 0:
             numbers = numbers.astype(np.int32)
@@ -152,14 +159,15 @@ class RayScene:
 
     def closest(self, origins: Any, directions: Any, t_min: Any = 0.0, t_max: Any = np.inf, *,
                 detail: Detail = "point", out: Optional[Hits] = None) -> Hits:
-        """The first hit of each ray where t_min < t < t_max; at equal t that of the lower object.
+        """The closest hit of each ray with t_min < t < t_max; at equal t, of the object with the
+        lower index.
 
-        origins: (..., 3) or (3,), scene units; or what `Hits.leave` gave.
-        directions: (..., 3) or (3,), of any length; t counts in their lengths.
-        t_min, t_max: numbers or (...), t_min at 0 or above. A ray with a NaN hits nothing.
-        detail: "t" gives t and object; "normal" also normals; "point" also points; "start" also what
-            `Hits.leave` needs. Less is quicker.
-        out: hits of an earlier call of the same shape, dtype and detail, to be overwritten.
+        origins: (..., 3) or (3,), scene units; or the result of `Hits.leave`.
+        directions: (..., 3) or (3,), of any length; t is in units of their length.
+        t_min, t_max: numbers or (...), t_min >= 0. A ray with a NaN hits nothing.
+        detail: "t" gives t and object; "normal" also normals; "point" also points; "start" also the
+            arrays for `Hits.leave`. Less detail is faster.
+        out: hits of an earlier call with the same shape, dtype and detail, to be overwritten.
         """
         starts = origins if isinstance(origins, Starts) else None
         rays = _Rays(origins if starts is None else starts.origin, directions, t_min, t_max)
@@ -174,19 +182,19 @@ class RayScene:
 
     def occluded(self, origins: Any, directions: Any, t_min: Any = 0.0,
                  t_max: Any = np.inf) -> Array:
-        """Whether each ray hits anything where t_min < t < t_max: bool, of shape (...)."""
+        """Whether each ray hits any object with t_min < t < t_max: bool, of shape (...)."""
         rays = _Rays(origins, directions, t_min, t_max)
         mask = np.empty(rays.shape, np.bool_)
         self._native.occluded(*rays.columns, mask.reshape(-1))
         return mask
 
     def lit(self, points: Any, light: int) -> Array:
-        """Whether the light of number `light` in Scene.lights reaches each point: bool, of shape
-        (...). Nothing that casts a shadow is in the way, transparent or not.
+        """Whether the light with index `light` in Scene.lights reaches each point: bool, of shape
+        (...). Every object between them that casts a shadow is an occluder, even a transparent one.
 
-        points: `Hits` of detail="start", of which misses are not lit; or places in space, (..., 3).
-            Of hits it is known what they are on: no surface shadows itself by rounding.
-        light: a point or directional one; ValueError for others.
+        points: `Hits` with detail="start", whose misses are not lit; or points in space, (..., 3).
+            The surfaces of hits are known, so rounding errors cause no self-shadowing.
+        light: a point light or a directional light; others raise ValueError.
         """
         hits = points if isinstance(points, Hits) else None
         if hits is not None and (hits.point is None or hits.surface is None):
@@ -206,15 +214,16 @@ class RayScene:
 
     def all_hits(self, origins: Any, directions: Any, t_min: Any = 0.0,
                  t_max: Any = np.inf) -> AllHits:
-        """Every hit of each ray where t_min < t < t_max. A ray that touches a surface without crossing
-        it may hit it twice at the same t."""
+        """All hits of each ray with t_min < t < t_max. A ray that touches a surface without
+        crossing it may hit it twice at the same t."""
         return AllHits(*self._native.all_hits(*_Rays(origins, directions, t_min, t_max).columns))
 
     def bounds(self, origins: Any, directions: Any, object: Any, t_min: Any = 0.0,
                t_max: Any = np.inf) -> Array:
-        """Proven bounds of the t at which each ray first hits the object of number object[...], which
-        `closest` gave, or that all ask about: float64, (..., 2), low and high. Low is above high,
-        (inf, -inf), where object is -1 or the ray surely does not hit it. Takes some 10 µs a ray."""
+        """Proven bounds of the t of each ray's first hit with an object: float64, (..., 2), low and
+        high. `object` is the array from `closest`, or one index for all rays. The bounds are (inf,
+        -inf) if the index is -1 or the ray certainly misses the object. Takes some 10 µs per
+        ray."""
         rays = _Rays(origins, directions, t_min, t_max)
         numbers = np.asarray(object)
         if numbers.shape not in ((), rays.shape) or numbers.dtype.kind not in "iu":
@@ -231,10 +240,10 @@ _DETAILS = ("t", "normal", "point", "start")
 
 
 class _Rays:
-    """Rays' arrays, checked, of one dtype and shape, as columns (n, 3), (n, 3), (n,), (n,)."""
+    """Checked arrays of rays, with one dtype and shape, as columns (n, 3), (n, 3), (n,), (n,)."""
 
     def __init__(self, origins: Any, directions: Any, t_min: Any, t_max: Any) -> None:
-        # What is no array has the other's precision.
+        # A value that is not an array gets the precision of the other one.
         vectors = {"origins": _array("origins", origins, directions),
                    "directions": _array("directions", directions, origins)}
         for name, array in vectors.items():
@@ -282,9 +291,9 @@ def _array(name: str, value: Any, beside: Any = None) -> Array:
 
 
 def _numbers(value: Any, dtype: Any, name: str, use: str) -> Array:
-    """A value as an array of numbers; `use` ends the message where it is none."""
+    """A value as an array of numbers. For other values `use` is the end of the message."""
     try:
-        # NumPy takes None for a NaN, and some texts for numbers.
+        # NumPy would convert None to NaN, and some texts to numbers.
         if value is None or _holds_texts(np.asarray(value)):
             raise TypeError
         return np.asarray(value, dtype)
@@ -293,7 +302,7 @@ def _numbers(value: Any, dtype: Any, name: str, use: str) -> Array:
 
 
 def _holds_texts(array: Array) -> bool:
-    """Whether there are texts in an array."""
+    """Whether an array contains texts."""
     if array.dtype.kind == "O":
         return any(isinstance(item, (str, bytes)) for item in array.flat)
     return array.dtype.kind in "SUT"
@@ -328,7 +337,7 @@ def _spread(array: Array, shape: Tuple[int, ...]) -> Array:
 
 
 def _by_component(shape: Tuple[int, ...], dtype: Any) -> Array:
-    """An array (..., 3) whose three components are contiguous each."""
+    """An array (..., 3) with contiguous components."""
     return np.moveaxis(np.empty((3, *shape), dtype), 0, -1)
 
 
@@ -371,7 +380,7 @@ def _checked_hits(hits: Hits, rays: _Rays, detail: Detail) -> Hits:
 
 
 def _columns(array: Optional[Array]) -> Optional[Array]:
-    """The components of an array (..., 3) made by _by_component: (3, n), of the same memory."""
+    """The components of an array (..., 3) from _by_component: (3, n), in the same memory."""
     return None if array is None else np.moveaxis(array, -1, 0).reshape(3, -1)
 
 
@@ -392,7 +401,7 @@ def _flat_starts(starts: Optional[Starts], rays: _Rays
 
 
 def _checked_part(value: Any, name: str, shape: Tuple[int, ...], dtype: np.dtype[Any]) -> Array:
-    """An array of hits or starts, which their owner may have replaced."""
+    """Checks an array of hits or starts, because the user may have replaced it."""
     if not isinstance(value, (np.ndarray, np.generic)):
         raise ValueError(f"{name} is {shown(value)}; use the array that packtrace gave")
     array = np.asarray(value)

@@ -1,4 +1,5 @@
-"""Error against run time: a scene rendered in many ways, each timed and held against the truth."""
+"""Error against run time: a scene is rendered in many ways, and each is timed and compared with the
+truth."""
 
 from __future__ import annotations
 
@@ -16,21 +17,24 @@ def report(scenes: Union[Scene, Mapping[str, Scene]], *, threads: Sequence[int] 
            adaptive: Optional[Sequence[Tuple[int, float]]] = None, repetitions: int = 9,
            truth_samples: int = 256, threshold: float = 1 / 255,
            progress: Optional[Callable[[str, float], Any]] = None) -> List[Row]:
-    """Renders scenes in many ways and says what each takes and how far off it is: one row a run,
-    which `pandas.DataFrame` takes as they are.
+    """Renders scenes in many ways and measures the time and the error of each. Returns one row per
+    run; `pandas.DataFrame` accepts the rows.
 
-    scenes: a scene, or scenes by name.
-    threads, isas: numbers of threads, and instruction sets (none: all of this machine), to vary.
-    min_weights, samples, adaptive: Scene.min_weight, samples a pixel, and pairs of samples and
-        contrast, to vary; None leaves them as `packtrace report` has them.
-    repetitions: of each run, in turns. truth_samples: a pixel, of what sampling is held against.
-    progress: called with what is being done and the share of it done. What it raises, and Ctrl-C,
-        end the report, a frame later.
+    scenes: a scene, or a mapping from names to scenes.
+    threads, isas: the numbers of threads and the instruction sets to vary; empty isas are all that
+        this machine supports.
+    min_weights, samples, adaptive: the values of Scene.min_weight, the samples per pixel, and the
+        pairs of samples and contrast to vary; None takes the defaults of `packtrace report`.
+    repetitions: of each run; the runs take turns.
+    truth_samples: samples per pixel of the truth for sampling.
+    threshold: a pixel with a larger error counts as off.
+    progress: receives the present activity and the share of it that is done. An exception in it, or
+        Ctrl-C, ends the report, one frame later.
 
     Columns are those of `packtrace report`'s report.csv (docs/report.md): scene, width, height
     (pixels), study, run, kernel, precision, isa, accuracy, lanes, threads, depth, min_weight, samples,
     adaptive, median_s (seconds), spread, rays, cut_rays, cut_bound, rmse, max_abs, psnr (decibels),
-    pixels, pixels_off, pareto, errors. None stands where a run has no such thing.
+    pixels, pixels_off, pareto, errors. A value that a run does not have is None.
     """
     if not hasattr(_packtrace, "report"):
         raise RuntimeError("this build of packtrace has no reports; build it with "

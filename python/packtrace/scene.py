@@ -1,9 +1,9 @@
 """Scenes built object by object. The words, units and defaults are those of the scene language
-(docs/scene.md); colours are linear, 1.0 is full.
+(docs/scene.md). Colours are linear; 1.0 is full intensity.
 
-Classes here hold values and check their fields' names alone: `Scene.validate`, `render` and
-`RayScene` check all of a scene and raise `SceneError`, or its base `ValueError` for a field of the
-wrong type or form. The message names the object as in `objects[0]`.
+These classes hold values and check only the names of their fields. `Scene.validate`, `render` and
+`RayScene` check the whole scene. They raise `SceneError`, or its base `ValueError` for a field of
+the wrong type or form. The message names the object as in `objects[0]`.
 """
 
 from __future__ import annotations
@@ -20,9 +20,9 @@ from . import _packtrace
 from .arguments import text as utf8
 
 Array = NDArray[Any]
-#: Three numbers, of any sequence or array.
+#: Three numbers, as any sequence or array.
 Vector = Union[Sequence[float], Array]
-#: Rows of numbers, of sequences or an array.
+#: Rows of numbers, as sequences or an array.
 Matrix = Union[Sequence[Sequence[float]], Array]
 #: One number for all channels, or red, green and blue.
 Colour = Union[float, Sequence[float], Array]
@@ -33,12 +33,13 @@ QuadricKind = Literal["ellipsoid", "cylinder", "cone", "paraboloid", "hyperboloi
 
 IDENTITY = ((1.0, 0.0, 0.0, 0.0), (0.0, 1.0, 0.0, 0.0), (0.0, 0.0, 1.0, 0.0), (0.0, 0.0, 0.0, 1.0))
 
-#: Held while objects of a file become Python's own.
+#: Held while objects of a file are converted to Python objects.
 _TAKING = threading.RLock()
 
 
 def _same(a: Any, b: Any) -> bool:
-    """Whether two values of a field are equal. Arrays, lists and tuples are by their elements."""
+    """Whether two values of a field are equal. Arrays, lists and tuples are compared by
+    elements."""
     if a is b:
         return True
     if isinstance(a, (list, tuple)) and isinstance(b, (list, tuple)):
@@ -49,13 +50,13 @@ def _same(a: Any, b: Any) -> bool:
 
 
 class _Part:
-    """A scene or a part of one. Its fields are those of its class; no other can be set."""
+    """A scene or a part of one. Only the fields of its class can be set."""
 
-    # Of the dataclass that each part is.
+    # Each part is a dataclass.
     __dataclass_fields__: ClassVar[Dict[str, Any]]
 
     def __setattr__(self, name: str, value: Any) -> None:
-        # What a user's own class adds to one of these is its own.
+        # Attributes of a user's subclass can be set, too.
         if name not in self.__dataclass_fields__ and not name.startswith("_") and not hasattr(
                 type(self), name):
             known = list(self.__dataclass_fields__)
@@ -74,7 +75,7 @@ class _Part:
 
 @dataclass(eq=False)
 class Sphere(_Part):
-    """All points at `radius` from `center`, in scene units; the radius is above 0."""
+    """A sphere, in scene units; the radius is above 0."""
 
     center: Vector = (0.0, 0.0, 0.0)
     radius: float = 1.0
@@ -82,7 +83,8 @@ class Sphere(_Part):
 
 @dataclass(eq=False)
 class Plane(_Part):
-    """An infinite plane through `point`. `normal` points to its outer side, at any length but 0."""
+    """An infinite plane through `point`. `normal` points to its outer side; it may have any length
+    except 0."""
 
     point: Vector = (0.0, 0.0, 0.0)
     normal: Vector = (0.0, 1.0, 0.0)
@@ -90,14 +92,14 @@ class Plane(_Part):
 
 @dataclass(eq=False)
 class Quadric(_Part):
-    """A surface of second order in its own space, to be placed by the object's transform.
+    """A surface of second order in its own space. The object's transform places it in the world.
 
     `kind` names an equation: "ellipsoid" x² + y² + z² = 1, "cylinder" x² + y² = 1, "cone" x² + y² =
     z², "paraboloid" x² + y² = z, "hyperboloid" x² + y² - z² = 1, "hyperboloid2" x² + y² - z² = -1,
     "saddle" x² - y² = z. "general" takes ten `coefficients` A … J of Ax² + By² + Cz² + Dxy + Exz +
-    Fyz + Gx + Hy + Iz + J = 0; the other kinds have their own.
+    Fyz + Gx + Hy + Iz + J = 0; the other kinds need none.
 
-    `z_range` = (low, high) keeps the part between two heights, and `capped` closes it there.
+    `z_range` = (low, high) clips the surface to these heights, and `capped` closes its ends.
     """
 
     kind: QuadricKind = "general"
@@ -108,9 +110,9 @@ class Quadric(_Part):
 
 @dataclass(eq=False)
 class Polygon(_Part):
-    """A flat sheet. `contours` holds one contour or more, each of three corners (x, y, z) or more in
-    one plane. The first one's corners run clockwise seen from the outer side; a contour within
-    another is a hole.
+    """A flat piece of a plane. `contours` has one or more contours, each with three or more corners
+    (x, y, z); all corners are in one plane. Seen from the outer side, the corners of the first
+    contour run clockwise. A contour inside another one is a hole.
     """
 
     contours: Sequence[Union[Sequence[Vector], Array]] = ()
@@ -121,7 +123,8 @@ Surface = Union[Sphere, Plane, Quadric, Polygon]
 
 @dataclass(eq=False)
 class Checker(_Part):
-    """Squares on a plane: `other` is the colour of every second one, `size` its edge in scene units."""
+    """Squares of two colours on a plane: `other` is the second colour, `size` the edge of a square
+    in scene units."""
 
     other: Colour = 0.0
     size: float = 1.0
@@ -129,7 +132,7 @@ class Checker(_Part):
 
 @dataclass(eq=False, kw_only=True)
 class Material(_Part):
-    """What all materials have. Use the class that fits `Scene.illumination`."""
+    """The fields of all materials. Use the subclass for `Scene.illumination`."""
 
     color: Colour = 1.0
     checker: Optional[Checker] = None
@@ -138,7 +141,8 @@ class Material(_Part):
 
 @dataclass(eq=False, kw_only=True)
 class ScratchMaterial(Material):
-    """`specular` is the highlight's exponent, -1 for none; `reflective` the mirrored share, 0 to 1."""
+    """`specular` is the exponent of the highlight, -1 for none; `reflective` is the mirrored share,
+    0 to 1."""
 
     specular: float = -1.0
     reflective: float = 0.0
@@ -147,7 +151,7 @@ class ScratchMaterial(Material):
 @dataclass(eq=False, kw_only=True)
 class SketchMaterial(Material):
     """`ambient` and `diffuse` multiply the colour; `specular` (mirror and highlight) and `refractive`
-    (the share that goes through) are white. `ior` is the index of refraction."""
+    (the transmitted share) do not. `ior` is the index of refraction."""
 
     ambient: Colour = 0.0
     diffuse: Colour = 0.0
@@ -159,7 +163,7 @@ class SketchMaterial(Material):
 
 @dataclass(eq=False, kw_only=True)
 class WhittedMaterial(Material):
-    """As SketchMaterial, with `transmissive` for the share that goes through."""
+    """As SketchMaterial, with `transmissive` for the transmitted share."""
 
     ambient: Colour = 0.0
     diffuse: Colour = 0.0
@@ -178,7 +182,7 @@ class ShaderMaterial(Material):
 
 @dataclass(eq=False, kw_only=True)
 class GeneralMaterial(Material):
-    """Absolute factors; the colour counts for nothing."""
+    """Factors that do not multiply the colour, which is not used."""
 
     ambient: Colour = 0.0
     diffuse: Colour = 0.0
@@ -192,8 +196,8 @@ class GeneralMaterial(Material):
 @dataclass(eq=False)
 class Object(_Part):
     """A surface with a material. `transform` is a 4 × 4 matrix M (rows first) that takes a point p of
-    the surface to M p; its last row is (0, 0, 0, 1). Without a material it has the one that the
-    scene's illumination starts from."""
+    the surface to M p; its last row is (0, 0, 0, 1). Without a material the object has the default
+    one of the scene's illumination."""
 
     surface: Surface
     material: Optional[Material] = None
@@ -202,22 +206,22 @@ class Object(_Part):
     casts_shadow: bool = True
 
     def translate(self, by: Vector) -> Object:
-        """A copy moved by `by` (scene units), after what its transform does so far."""
+        """A copy moved by `by` (scene units), applied after its present transform."""
         return replace(self, transform=_packtrace.translated(self.transform, by))
 
     def rotate(self, axis: Vector, degrees: float) -> Object:
-        """A copy turned about an axis through the origin; 90 degrees about z take x to y."""
+        """A copy rotated about an axis through the origin; 90 degrees about z take x to y."""
         return replace(self, transform=_packtrace.rotated(self.transform, axis, degrees))
 
     def scale(self, factors: Colour) -> Object:
-        """A copy scaled about the origin, by one number or three; below 0 mirrors."""
+        """A copy scaled about the origin, by one number or three; negative factors mirror."""
         return replace(self, transform=_packtrace.scaled(self.transform, factors))
 
 
 @dataclass(eq=False)
 class Light(_Part):
     """`type` is "ambient", "point" (`vector` is its position) or "directional" (`vector` points from
-    the scene towards it). `intensity` 1 is full and does not fall off with the distance."""
+    the scene towards it). `intensity` 1 is full intensity; it is not attenuated by distance."""
 
     type: Literal["ambient", "point", "directional"] = "ambient"
     intensity: Colour = 1.0
@@ -227,10 +231,11 @@ class Light(_Part):
 
 @dataclass(eq=False)
 class Camera(_Part):
-    """A pinhole camera. The columns of `rotation` (3 × 3, rows first) are its axes to the right, up
-    and forward. `viewport` (width, height) lies at `distance`, in scene units; with `fov`, the full
-    vertical angle of view in degrees, it follows the picture's shape. `pixel_sample` says where in a
-    pixel its sample lies, from the left and top edge; None is the place that the illumination has.
+    """A pinhole camera. The columns of `rotation` (3 × 3, rows first) are its right, up and forward
+    axes. `viewport` (width, height) is at `distance`, in scene units. With `fov`, the full vertical
+    angle of view in degrees, the viewport has the picture's aspect ratio. `pixel_sample` is the
+    position of a pixel's sample, from its left and top edges; None is the default of the
+    illumination.
     """
 
     position: Vector = (0.0, 0.0, 0.0)
@@ -243,13 +248,14 @@ class Camera(_Part):
     @staticmethod
     def look_at(position: Vector, target: Vector, up: Vector = (0.0, 1.0, 0.0),
                 **fields: Any) -> Camera:
-        """A camera at `position` that looks at `target`; `fields` are further ones, such as fov."""
+        """A camera at `position` that looks at `target`; `fields` are further fields, such as
+        fov."""
         return Camera(position=position, rotation=_packtrace.look_at(position, target, up), **fields)
 
 
 @dataclass(eq=False)
 class Orbit(_Part):
-    """A circle of the camera about an axis through `center`, which it looks at."""
+    """The camera circles around an axis through `center` and looks at `center`."""
 
     center: Vector = (0.0, 0.0, 0.0)
     axis: Vector = (0.0, 1.0, 0.0)
@@ -268,7 +274,7 @@ class CameraKey(_Part):
 
 @dataclass(eq=False)
 class Animation(_Part):
-    """`frames` pictures of a camera on an `orbit`, or through two `keys` or more."""
+    """`frames` pictures, with the camera on an `orbit` or on a curve through two or more `keys`."""
 
     frames: int = 1
     orbit: Optional[Orbit] = None
@@ -277,12 +283,12 @@ class Animation(_Part):
 
 @dataclass(eq=False)
 class Scene(_Part):
-    """A scene in double precision. Object numbers of hits are indices in `objects`; where two
-    surfaces are hit at the same t, the lower number wins.
+    """A scene in double precision. Hits identify objects by their index in `objects`. If a ray hits
+    two objects at the same t, the lower index wins.
 
-    `width` and `height` are pixels. `max_depth` counts reflections and refractions after the camera
-    ray; None is what the illumination starts from (4 for "sketch", else 3). `min_weight` (0 to 1)
-    leaves out mirrored and refracted rays that count for less.
+    `width` and `height` are pixels. `max_depth` is the number of reflections and refractions after
+    the camera ray; None is the default of the illumination (4 for "sketch", else 3). Mirrored and
+    refracted rays with a weight below `min_weight` (0 to 1) are not traced.
     """
 
     width: int = 512
@@ -300,28 +306,30 @@ class Scene(_Part):
 
     @staticmethod
     def from_text(text: str, name: str = "scene") -> Scene:
-        """The scene that a text in the scene language describes; `name` stands for the file in
-        messages. Raises SceneError: "scene:1:10: what, why, what to do"."""
+        """Reads a scene from a text in the scene language. Messages use `name` as the name of the
+        file. Raises SceneError: "scene:1:10: what, why, what to do"."""
         return _packtrace.parse_scene(utf8("text", text), utf8("name", name))
 
     def to_text(self) -> str:
-        """The scene in the scene language. Reading it gives the same scene, number for number."""
+        """The scene in the scene language. The text reads back as the same scene, number for
+        number."""
         return _packtrace.scene_text(self)
 
     def validate(self) -> None:
-        """Raises SceneError for the first fault of the scene, in one line that names the object. A
-        field of the wrong type or form raises ValueError, the base of SceneError."""
+        """Raises SceneError for the first fault of the scene, with one line that names the object.
+        A field of the wrong type or form raises ValueError, the base of SceneError."""
         _packtrace.validate(self)
 
     def camera_at(self, frame: int) -> Camera:
-        """The camera of one frame of the animation, 0 being the first."""
+        """The camera of one frame of the animation; frames count from 0."""
         return _packtrace.camera_at(self, frame)
 
-    # Objects of a file become Python's own only when they are asked for: there may be millions.
+    # Objects of a file are converted to Python objects at their first use, as there may be
+    # millions.
     def __getattr__(self, name: str) -> Any:
         if name == "objects":
             with _TAKING:
-                # Another thread may have had them in the meantime.
+                # Another thread may have converted them meanwhile.
                 if "_native_objects" in self.__dict__:
                     self.objects = self.__dict__["_native_objects"].take()
                     del self.__dict__["_native_objects"]
@@ -330,5 +338,5 @@ class Scene(_Part):
         raise AttributeError(f"a Scene has no '{name}'")
 
     def __getstate__(self) -> Dict[str, Any]:
-        self.objects  # noqa: B018 - which makes them Python's own
+        self.objects  # noqa: B018 - converts them to Python objects
         return self.__dict__.copy()

@@ -8,8 +8,8 @@
 
 namespace packtrace {
 
-/// `size` elements of a plain type, each as T{} unless unset() made them, aligned to 64 bytes at
-/// least.
+/// `size` elements of a trivially copyable type, aligned to at least 64 bytes. Each is T{} unless
+/// the array comes from unset().
 template <class T>
 class AlignedArray {
     static_assert(std::is_trivially_copyable_v<T>);
@@ -23,7 +23,7 @@ public:
             data_.get()[i] = T{};
     }
 
-    /// With any bytes, to be set by several threads at once.
+    /// An array without initial values, so that several threads can set them at once.
     [[nodiscard]] static AlignedArray unset(std::size_t size)
     {
         AlignedArray array;
@@ -40,7 +40,7 @@ public:
     {
         return size_;
     }
-    /// Of the elements.
+    /// The size of the elements in bytes.
     [[nodiscard]] std::size_t bytes() const
     {
         return size_ * sizeof(T);

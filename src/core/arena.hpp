@@ -11,8 +11,8 @@
 
 namespace packtrace {
 
-/// An arena of so many threads for one piece of work, from among those that earlier work has left:
-/// TBB does not give back the memory of all that are made (oneTBB 2021.8: some 10 kB each).
+/// An arena with a given number of threads, for one piece of work. Arenas are reused, because TBB
+/// does not release all their memory (oneTBB 2021.8: some 10 kB each).
 class BorrowedArena {
 public:
     explicit BorrowedArena(int threads)
@@ -50,7 +50,7 @@ private:
         std::map<int, Arenas> of_threads;
     };
 
-    /// Never destroyed: threads may still work while the program ends.
+    /// Never destroyed, because threads may still work while the program ends.
     static Idle& idle()
     {
         static Idle& arenas = *new Idle;
@@ -61,8 +61,8 @@ private:
     Arenas* left_;
 };
 
-/// Does `work` on so many threads, or on as many as TBB allows: of more it would warn on standard
-/// error. On those of the present arena for 0.
+/// Runs `work` on the given number of threads; for 0, on those of the caller's arena. The number is
+/// limited to what TBB allows, because TBB warns on standard error about more.
 template <class Work>
 auto run_on_threads(int threads, const Work& work)
 {

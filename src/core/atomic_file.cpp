@@ -24,18 +24,18 @@
 namespace packtrace {
 namespace {
 
-constexpr std::size_t longest_name = 255;  // of a file, on every common file system
+constexpr std::size_t longest_name = 255;  // file name, on every common file system
 constexpr std::string_view ending = ".tmp";
 
-/// What the temporary names of a target begin with: hidden, and as long as leaves room for the
-/// process and the attempt.
+/// The prefix of a target's temporary names. It makes them hidden, and is short enough to leave
+/// room for the process and the attempt.
 std::string temporary_prefix(const std::filesystem::path& target)
 {
     constexpr std::size_t room = 40;
     return "." + target.filename().string().substr(0, longest_name - room) + ".";
 }
 
-// Told apart by process and by call, so that writers of one target don't meet.
+// Contains the process and the attempt, so that several writers of one target do not collide.
 std::filesystem::path temporary_name(const std::filesystem::path& target, int attempt)
 {
     std::string name = temporary_prefix(target);
@@ -44,7 +44,7 @@ std::filesystem::path temporary_name(const std::filesystem::path& target, int at
     return target.parent_path() / name;
 }
 
-/// The process in a temporary name; 0 if it is none.
+/// The process in a temporary name; 0 for other names.
 pid_t writer_of(std::string_view name, std::string_view prefix)
 {
     if (!name.starts_with(prefix) || !name.ends_with(ending))
@@ -55,7 +55,7 @@ pid_t writer_of(std::string_view name, std::string_view prefix)
     return error == std::errc() && *end == '-' ? process : 0;
 }
 
-/// Whether a process is gone, or has ended and nobody has asked how: then it writes nothing more.
+/// Whether a process no longer exists or is a zombie, and so writes nothing more.
 bool has_ended(pid_t process)
 {
     if (kill(process, 0) != 0)
@@ -63,13 +63,13 @@ bool has_ended(pid_t process)
     std::ifstream status("/proc/" + std::to_string(process) + "/stat");
     std::string text;
     std::getline(status, text);
-    // The state stands behind the program's name, which may have brackets of its own.
+    // The state follows the program's name, which may contain brackets.
     const std::size_t name_end = text.rfind(')');
     return name_end != std::string::npos && text.substr(name_end).starts_with(") Z");
 }
 
-/// Whether nobody writes to the file any more: its process has ended, and its lock, which also
-/// tells of processes of other machines, is free.
+/// Whether nobody writes to the file any more: its process has ended, and its lock is free. The
+/// lock also covers processes on other machines.
 bool is_left_over(const std::filesystem::path& file, pid_t writer)
 {
     if (!has_ended(writer))
@@ -89,8 +89,8 @@ struct CloseFolder {
     }
 };
 
-/// The names in a folder that may be of temporary files, read once: a run that writes many files
-/// into one folder looks through it a single time.
+/// The names in a folder that may be temporary files. Each folder is read once, so that a run with
+/// many files does not read it again and again.
 std::vector<std::string> temporaries_in(const std::filesystem::path& folder)
 {
     static std::mutex mutex;
@@ -99,7 +99,7 @@ std::vector<std::string> temporaries_in(const std::filesystem::path& folder)
     const auto [place, is_new] = known.try_emplace(folder);
     if (!is_new)
         return place->second;
-    // The standard library's iterators end the program where there is no memory for a name.
+    // Not std::filesystem's iterators, which end the program if there is no memory for a name.
     const std::unique_ptr<DIR, CloseFolder> opened(opendir(folder.c_str()));
     while (const dirent* const entry = opened ? readdir(opened.get()) : nullptr)
         if (const std::string_view name = entry->d_name; name.ends_with(ending))
@@ -107,8 +107,8 @@ std::vector<std::string> temporaries_in(const std::filesystem::path& folder)
     return place->second;
 }
 
-/// The file that a chain of links leads to, whether it is there or not; a link to a pipe without a
-/// name, such as /dev/stdout may be, stays itself.
+/// The file at the end of a chain of links; it need not exist. A link to a pipe without a name,
+/// such as /dev/stdout may be, is not followed.
 std::filesystem::path followed(std::filesystem::path target)
 {
     constexpr int longest_chain = 40;
@@ -125,8 +125,8 @@ std::filesystem::path followed(std::filesystem::path target)
                : target;
 }
 
-/// The names of the temporary files that live. A handler of signals reads them: a name is complete
-/// before its slot says so.
+/// The name of an existing temporary file. Signal handlers read it, so the name is written before
+/// the flag `complete`.
 struct TemporarySlot {
     std::atomic<bool> taken{false};
     std::atomic<bool> complete{false};
@@ -134,10 +134,11 @@ struct TemporarySlot {
 };
 std::array<TemporarySlot, 64> temporaries;
 
-/// Between the decision to create a file and its entry in a slot.
+/// Held from the decision to create a file until its name is in a slot.
 SignalGate creation;
 
-/// The number of the slot; -1 if all are taken or the name is too long.
+/// Stores a name in a slot. Returns the index of the slot; -1 if all are taken or the name is too
+/// long.
 int note_temporary(const std::filesystem::path& file)
 {
     const std::string& name = file.native();
@@ -189,7 +190,7 @@ AtomicFile::AtomicFile(std::filesystem::path target) : target_(followed(std::mov
     if (is_there && access(target_.c_str(), W_OK) != 0)
         throw FileError(target_, FileAction::write, errno);
     std::error_code ignored;
-    // A link is followed, unless the file that it leads to has no name.
+    // followed() leaves only links to files without a name.
     if (is_there && (!S_ISREG(found.st_mode) || std::filesystem::is_symlink(target_, ignored))) {
         open_directly();
         return;
@@ -202,7 +203,7 @@ AtomicFile::AtomicFile(std::filesystem::path target) : target_(followed(std::mov
 void AtomicFile::belong_as(const struct stat& replaced)
 {
     const int handle = fileno(file_.get());
-    // Who may not give a file away keeps it, and some file systems have no permissions.
+    // Errors are ignored: users may not give files away, and some file systems have no permissions.
     [[maybe_unused]] const int given = fchown(handle, replaced.st_uid, replaced.st_gid);
     [[maybe_unused]] const int set = fchmod(handle, replaced.st_mode & 0777u);
 }
@@ -264,14 +265,14 @@ void AtomicFile::write(std::string_view text)
 
 void AtomicFile::commit()
 {
-    // A full disk may show only now, when the last buffer goes out.
+    // Writing the last buffer may find that the disk is full.
     if (std::fclose(file_.release()) != 0)
         throw FileError(target_, FileAction::write, errno);
     if (temporary_.empty())
         return;
     std::error_code error;
     std::filesystem::rename(temporary_, target_, error);
-    // The handler of signals has taken the file away.
+    // The signal handler has removed the file.
     if (error && creation.is_closed())
         wait_for_the_end();
     if (error)
@@ -290,9 +291,9 @@ void make_folders(const std::filesystem::path& folder)
 
 void check_folder(const std::filesystem::path& folder)
 {
-    // Only the system knows whether a folder can be made: it is, and removed again.
+    // The only reliable test is to create the missing folders and remove them again.
     struct Missing {
-        std::vector<std::filesystem::path> folders;  ///< the innermost first
+        std::vector<std::filesystem::path> folders;  ///< innermost first
         ~Missing()
         {
             std::error_code ignored;

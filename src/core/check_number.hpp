@@ -6,12 +6,13 @@
 #include <stdexcept>
 #include <string>
 
-// Options of the library's callers: each fault is one line that says what there is instead.
+// Checks of the options of the library's callers. Each message is one line, and says which values
+// are valid.
 namespace packtrace {
 
-/// Threads that work together at most.
+/// The largest number of threads.
 inline constexpr int most_threads = 1024;
-/// Repetitions of a measurement at most.
+/// The largest number of repetitions of a measurement.
 inline constexpr int most_repetitions = 1000;
 
 /// Throws std::invalid_argument for a number outside `least` … `most`.
@@ -22,7 +23,7 @@ inline void check_number(const std::string& option, int number, int least, int m
                                     std::to_string(least) + " to " + std::to_string(most));
 }
 
-/// The same for what is not a finite number from 0 on.
+/// Throws std::invalid_argument unless the number is finite and not negative.
 inline void check_not_negative(const std::string& option, double number)
 {
     if (!(number >= 0.0) || !std::isfinite(number))

@@ -5,7 +5,7 @@
 #include <string>
 #include <string_view>
 
-// Numbers that tell whether bytes or texts are the same.
+// Checksums of bytes and texts.
 namespace packtrace {
 
 [[nodiscard]] inline std::span<const std::uint8_t> bytes_of(std::string_view text)
@@ -13,10 +13,10 @@ namespace packtrace {
     return {reinterpret_cast<const std::uint8_t*>(text.data()), text.size()};
 }
 
-/// The CRC-32 of bytes that follow those of the checksum `before`.
+/// The CRC-32 of bytes. `before` is the checksum of the bytes before them, if any.
 [[nodiscard]] std::uint32_t checksum(std::span<const std::uint8_t> bytes, std::uint32_t before = 0);
 
-/// FNV-1a (Fowler, Noll and Vo) in 64 bits: the same on every machine and in every version.
+/// FNV-1a (Fowler, Noll and Vo) with 64 bits. It is the same on every machine and in every version.
 [[nodiscard]] constexpr std::uint64_t text_hash(std::string_view text)
 {
     std::uint64_t hash = 0xcbf29ce484222325u;

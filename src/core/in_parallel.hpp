@@ -7,8 +7,8 @@
 
 namespace packtrace {
 
-/// Calls `visit(element)` for every element of a range, several of them at once when there are
-/// thousands.
+/// Calls `visit(element)` for every element of a range. Ranges of thousands of elements are visited
+/// in parallel.
 template <class Range, class Visit>
 void for_each_in_parallel(Range& range, const Visit& visit)
 {

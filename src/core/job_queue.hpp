@@ -15,9 +15,9 @@
 
 namespace packtrace {
 
-/// Runs jobs one after the other on a thread of its own, in the order they come. One job waits at
-/// most, besides the one that runs. After a job that throws no other runs. Where the system starts
-/// no thread, jobs run as they come.
+/// Runs jobs one by one on its own thread, in the order of add(). At most one job waits besides the
+/// one that runs. After a job that throws, no further jobs run. If the system cannot start a
+/// thread, add() runs the jobs.
 class JobQueue {
 public:
     using Job = std::function<void()>;
@@ -27,10 +27,10 @@ public:
         try {
             thread_ = std::thread([this] { run_all(); });
         } catch (const std::system_error&) {
-            // Without the thread, add() does its work.
+            // Without a thread, add() runs the jobs.
         }
     }
-    /// Runs what has come; what that throws is lost.
+    /// Runs the remaining jobs. Their exceptions are lost.
     ~JobQueue()
     {
         end_thread();
@@ -38,7 +38,7 @@ public:
     JobQueue(const JobQueue&) = delete;
     JobQueue& operator=(const JobQueue&) = delete;
 
-    /// Waits until there is room. Throws what an earlier job threw.
+    /// Waits until there is room. Rethrows the exception of an earlier job.
     void add(Job job)
     {
         if (!thread_.joinable())
@@ -51,7 +51,7 @@ public:
         changed_.notify_all();
     }
 
-    /// Waits until all jobs are done; no more may come. Throws what a job threw.
+    /// Waits until all jobs are done. No more jobs may be added. Rethrows the exception of a job.
     void finish()
     {
         end_thread();
@@ -59,7 +59,7 @@ public:
             std::rethrow_exception(error_);
     }
 
-    /// That jobs took; for after finish().
+    /// The time of all jobs. Valid after finish().
     [[nodiscard]] double seconds() const
     {
         return seconds_;
@@ -84,7 +84,7 @@ private:
             std::rethrow_exception(error_);
     }
 
-    /// What a job that runs throws.
+    /// Runs a job and returns its exception, if any.
     std::exception_ptr error_of(const Job& job)
     {
         try {
@@ -127,7 +127,7 @@ private:
     std::mutex mutex_;
     std::condition_variable changed_;
     std::deque<Job> jobs_;      // the first may be running
-    bool no_more_ = false;      // no more jobs come
+    bool no_more_ = false;      // no more jobs will be added
     std::exception_ptr error_;  // of the job that threw
     std::thread thread_;
 };

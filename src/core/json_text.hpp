@@ -7,13 +7,14 @@
 
 namespace packtrace {
 
-/// A number as JSON, which has no infinity and no NaN: these are null.
+/// A number as JSON. Infinity and NaN become null, because JSON does not have them.
 [[nodiscard]] inline nlohmann::json finite_or_null(double value)
 {
     return std::isfinite(value) ? nlohmann::json(value) : nlohmann::json();
 }
 
-/// As the program writes JSON: indented, a line end last, bytes that are not UTF-8 replaced.
+/// JSON as the program writes it: indented, with a final line end. Bytes that are not UTF-8 are
+/// replaced.
 template <class Json>
 [[nodiscard]] std::string json_text(const Json& json)
 {

@@ -5,13 +5,13 @@
 
 namespace packtrace {
 
-/// Something that speeds up later work, made once so much work was asked for that it pays. Any
-/// number of threads may ask: one makes it, the others meanwhile go on without.
+/// Something that speeds up later work. It is made as soon as enough work was requested to pay for
+/// it. Thread-safe: one thread makes it, while the others continue without it.
 template <class Thing>
 class MadeWhenPaid {
 public:
-    /// Counts `work`; with all that was asked for before it may reach the price, for which
-    /// `make()`, a std::unique_ptr, is called. Returns it, or null as long as it is not made.
+    /// Adds `work` to the work requested so far. If the sum reaches `price`, calls `make()`, which
+    /// returns a std::unique_ptr. Returns the thing, or null until it is made.
     template <class Make>
     const Thing* after(double work, double price, const Make& make)
     {
@@ -27,7 +27,7 @@ public:
         return owner_.get();
     }
 
-    /// Null as long as it is not made.
+    /// Null until it is made.
     [[nodiscard]] const Thing* get() const
     {
         return thing_.load(std::memory_order_acquire);

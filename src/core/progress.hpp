@@ -12,8 +12,8 @@
 
 namespace packtrace {
 
-/// Counts finished pieces of work from any thread and passes the share done to a callback, one
-/// call at a time, about a hundred times in all. Knows when to stop.
+/// Counts finished pieces of work and reports the share that is done to a callback, about a hundred
+/// times in all, one call at a time. Also watches for stop requests. Thread-safe.
 class Progress {
 public:
     Progress(int pieces, const std::function<void(double)>& callback, std::stop_token stop = {})
@@ -26,7 +26,7 @@ public:
         return stop_.stop_requested();
     }
 
-    /// Where the work ends.
+    /// Call it at the end of the work. Throws StopError after a stop request.
     void check_stop() const
     {
         if (is_stopped())
@@ -41,8 +41,8 @@ public:
         if (done % step_ != 0 && done != pieces_)
             return;
         const std::lock_guard lock(mutex_);
-        // A callback that waits for tasks of its own is given none of this work meanwhile, whose
-        // pieces end here, too.
+        // Isolated, so that a callback that waits for its own tasks is not given pieces of this
+        // work, which would call back again.
         tbb::this_task_arena::isolate(
             [&] { callback_(static_cast<double>(done_.load()) / pieces_); });
     }

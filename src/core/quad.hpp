@@ -3,10 +3,10 @@
 #include <cmath>
 #include <limits>
 
-// Floating point with 113 bits, in software, as compilers bring it along.
+// Floating point with 113 bits, in software, from the compiler.
 namespace packtrace {
 
-// long double has them on 64-bit Arm, not on x86-64.
+// long double has 113 bits on 64-bit Arm, but not on x86-64.
 #if defined(__SIZEOF_FLOAT128__)
 __extension__ typedef __float128 Quad;
 #else
@@ -19,8 +19,8 @@ static_assert(__LDBL_MANT_DIG__ == 113);
     return x < 0 ? -x : x;
 }
 
-/// The square root, to a few units in the last place, of a number in double's range; 0 of what is
-/// not above 0.
+/// The square root of a number in double's range, within a few units in the last place. 0 if the
+/// number is not above 0.
 [[nodiscard]] inline Quad square_root(Quad x)
 {
     const double start = std::sqrt(static_cast<double>(x));
@@ -32,14 +32,14 @@ static_assert(__LDBL_MANT_DIG__ == 113);
     return root;
 }
 
-/// The next double at or below x.
+/// The largest double that is at most x.
 [[nodiscard]] inline double round_down(Quad x)
 {
     const double near = static_cast<double>(x);
     return near > x ? std::nextafter(near, -std::numeric_limits<double>::infinity()) : near;
 }
 
-/// The next double at or above x.
+/// The smallest double that is at least x.
 [[nodiscard]] inline double round_up(Quad x)
 {
     const double near = static_cast<double>(x);

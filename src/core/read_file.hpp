@@ -8,13 +8,13 @@
 #include <string>
 #include <system_error>
 
-// Files read whole, and the error of files that can't be read or written.
+// Reads whole files, and defines the error of files that cannot be read or written.
 namespace packtrace {
 
-/// What could not be done with a file.
+/// The action that failed.
 enum class FileAction { read, write, make_folder };
 
-/// A file that can't be read or written; `what()` is one line, `file: what: why`.
+/// A file cannot be read or written. `what()` is one line, `file: what: why`.
 struct FileError : std::runtime_error {
     using std::runtime_error::runtime_error;
     FileError(const std::filesystem::path& file, FileAction action, int error_number)
@@ -31,7 +31,7 @@ private:
                : action == FileAction::write ? "write"
                                              : "make this folder";
     }
-    /// For where there is no such file or folder.
+    /// Advice if there is no such file or folder.
     static const char* advice(FileAction action)
     {
         return action == FileAction::write ? "; make its folder first" : "; check its name";
@@ -46,7 +46,7 @@ struct FileCloser {
     }
 };
 
-/// A file that is closed at its end, unless it is standard input.
+/// An open file. Its destructor closes it, unless it is standard input.
 using OpenFile = std::unique_ptr<std::FILE, FileCloser>;
 
 /// The bytes of a file. Throws FileError.
@@ -56,7 +56,7 @@ using OpenFile = std::unique_ptr<std::FILE, FileCloser>;
     if (!input)
         throw FileError(file, FileAction::read, errno);
 
-    // In growing steps, not by the file's size: a pipe has none.
+    // Read in growing steps, because a pipe has no size.
     std::string bytes;
     std::size_t used = 0;
     do {

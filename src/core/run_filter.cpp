@@ -16,13 +16,13 @@ extern char** environ;
 namespace packtrace {
 namespace {
 
-/// The program that is waited for; 0: none.
+/// The program that run_filter() waits for; 0 for none.
 std::atomic<pid_t> running{0};
 
-/// Between the decision to start a program and that it is noted as running.
+/// Held from the decision to start a program until `running` is set.
 SignalGate starting;
 
-/// A pipe, of which programs that are started get the one end that they are given.
+/// A pipe. A started program inherits only the end that it is given.
 class Pipe {
 public:
     Pipe()
@@ -47,7 +47,7 @@ public:
         return ends_[1];
     }
 
-    /// All that is written, until nobody has the other end any more.
+    /// Reads until the other end is closed by all its holders.
     std::string read_all()
     {
         close_end(1);
@@ -73,14 +73,14 @@ private:
     int ends_[2] = {-1, -1};
 };
 
-/// What becomes of a program's descriptors.
+/// The file actions for a started program's descriptors.
 class Descriptors {
 public:
     Descriptors(int input, int answers, int answers_on)
     {
         posix_spawn_file_actions_init(&actions_);
         posix_spawn_file_actions_adddup2(&actions_, input, STDIN_FILENO);
-        // The pipe may have the very number; a copy to itself would be closed again.
+        // The pipe may already have this number. A copy to itself would stay close-on-exec.
         if (answers != answers_on)
             posix_spawn_file_actions_adddup2(&actions_, answers, answers_on);
         else
@@ -105,7 +105,7 @@ private:
     posix_spawn_file_actions_t actions_;
 };
 
-/// Starts a program and notes it. The process; 0 if it can't be started.
+/// Starts a program and sets `running`. Returns the process; 0 if the program cannot be started.
 pid_t start(const std::vector<std::string>& command, const Descriptors& descriptors)
 {
     std::vector<char*> words;
@@ -128,7 +128,7 @@ pid_t start(const std::vector<std::string>& command, const Descriptors& descript
     return child;
 }
 
-/// Waits for a program's end. -1 where a signal ended it, or where somebody else has waited for it.
+/// Waits for a program's end. Returns -1 if a signal ended it, or if someone else waited for it.
 int exit_code_of(pid_t child)
 {
     int status = 0;
@@ -144,7 +144,7 @@ int exit_code_of(pid_t child)
 FilterResult run_filter(const std::vector<std::string>& command, const std::string& input,
                         int answers_on)
 {
-    // A file rather than a pipe: who writes it does not wait for its reader.
+    // A file rather than a pipe, because writing it does not wait for the reader.
     const OpenFile in(std::tmpfile());
     Pipe out;
     FilterResult result;

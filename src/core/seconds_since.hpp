@@ -10,7 +10,7 @@ namespace packtrace {
     return std::chrono::duration<double>(to - from).count();
 }
 
-/// Seconds of the clock since `start`.
+/// Wall-clock seconds since `start`.
 [[nodiscard]] inline double seconds_since(std::chrono::steady_clock::time_point start)
 {
     return seconds_between(start, std::chrono::steady_clock::now());

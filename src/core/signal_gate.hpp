@@ -7,11 +7,11 @@
 
 namespace packtrace {
 
-/// Lets a handler of signals that ends the program wait for what threads are in the middle of, such
-/// as a file that is there and not yet noted as one to remove.
+/// Makes a signal handler that ends the program wait for critical sections of threads, such as
+/// between creating a file and noting it as one to remove.
 class SignalGate {
 public:
-    /// While one lives, the handler waits. No signal reaches this thread meanwhile, so that the
+    /// The handler waits while a Passage exists. This thread blocks signals meanwhile, so that the
     /// handler never waits for itself.
     class Passage {
     public:
@@ -21,7 +21,7 @@ public:
             sigfillset(&all);
             pthread_sigmask(SIG_SETMASK, &all, &before_);
             ++gate_.within_;
-            // The handler has either seen the count, or closed the gate before.
+            // Either the handler sees the count, or the gate was closed before.
             is_late_ = gate_.is_closed();
         }
         ~Passage()
@@ -32,12 +32,12 @@ public:
         Passage(const Passage&) = delete;
         Passage& operator=(const Passage&) = delete;
 
-        /// The program ends: nothing may begin any more.
+        /// True: the program is ending, and the section must not begin.
         [[nodiscard]] bool is_late() const
         {
             return is_late_;
         }
-        /// The signals that this thread had blocked before.
+        /// The signals that this thread blocked before.
         [[nodiscard]] const sigset_t& blocked_before() const
         {
             return before_;
@@ -49,8 +49,8 @@ public:
         bool is_late_ = false;
     };
 
-    /// For the handler: all who come from now on are late. Waits for those within, a second at
-    /// most, as a file system may hang. Takes no lock and allocates nothing.
+    /// For the handler: all later passages are late. Waits for present ones, at most a second,
+    /// because a file system may hang. Takes no lock and does not allocate.
     void close()
     {
         constexpr timespec moment = {.tv_sec = 0, .tv_nsec = 100'000};

@@ -9,11 +9,11 @@ namespace {
 constexpr std::size_t alignment = 64;
 constexpr std::size_t huge_page = std::size_t{1} << 21;
 
-/// From this size on, what would be taken in small pages has a huge one: it costs less than that
-/// many small ones, and what is left of it is never more than three times as much.
+/// From this size on, memory is taken in a huge page. It costs less than as many small pages, and
+/// the unused rest is at most three times the used part.
 constexpr std::size_t worth_a_huge_page = huge_page / 4;
 
-/// Bytes to ask for: whole huge pages, but for a rest that is not worth one.
+/// The number of bytes to allocate: whole huge pages, and a rest that is too small for one.
 std::size_t rounded_up(std::size_t bytes)
 {
     const std::size_t step = bytes % huge_page >= worth_a_huge_page ? huge_page : alignment;
@@ -32,8 +32,8 @@ void* take_pages(std::size_t bytes)
     if (posix_memalign(&memory, boundary, rounded) != 0)
         throw std::bad_alloc();
 #if defined(MADV_HUGEPAGE)
-    // Rays walk large arrays in no order, and first frames touch all pages; a refusal costs time
-    // only.
+    // Rays access large arrays in random order, and first frames touch all pages. An error only
+    // costs time, so it is ignored.
     if (boundary == huge_page)
         (void)madvise(memory, rounded, MADV_HUGEPAGE);
 #endif

@@ -6,7 +6,7 @@
 namespace packtrace {
 namespace {
 
-/// With a point, whatever locale a program around the library has chosen.
+/// Uses a decimal point in every locale, which the calling program may have set.
 std::string printed(double value, std::chars_format format, int digits)
 {
     std::array<char, 512> text;

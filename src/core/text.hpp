@@ -8,16 +8,16 @@
 #include <system_error>
 #include <vector>
 
-// Small steps of making texts, and numbers of them.
+// Small functions to make texts, and to read numbers from texts.
 namespace packtrace {
 
-/// A number with a fixed count of decimals.
+/// The number with a fixed number of decimals.
 [[nodiscard]] std::string fixed(double value, int decimals);
 
-/// A number with so many digits, and an exponent where it needs one.
+/// The number with at most `digits` significant digits, and an exponent if it needs one.
 [[nodiscard]] std::string brief(double value, int digits = 3);
 
-/// The number that all of `text` is; nothing where it is none, or out of range.
+/// Reads all of `text` as a number. Not set if it is not a number, or out of range.
 template <class Number>
 [[nodiscard]] std::optional<Number> parse_number(std::string_view text)
 {
@@ -32,7 +32,7 @@ template <class Number>
 /// "1 vertex", "2 vertices".
 [[nodiscard]] std::string counted(std::int64_t number, std::string_view one, std::string_view many);
 
-/// What `text` makes of each item, with `between` between each two.
+/// Joins `text(item)` of all items, with `between` as the separator.
 template <class Items, class Text>
 [[nodiscard]] std::string joined(const Items& items, std::string_view between, const Text& text)
 {
@@ -50,7 +50,7 @@ template <class Items, class Text>
 [[nodiscard]] std::string joined(const std::vector<std::string>& words,
                                  std::string_view between = ", ");
 
-/// `text` with `by` in place of each `letter`.
+/// Replaces each `letter` in `text` by `by`.
 [[nodiscard]] std::string replaced(std::string_view text, char letter, std::string_view by);
 
 }  // namespace packtrace

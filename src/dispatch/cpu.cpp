@@ -2,8 +2,8 @@
 
 namespace packtrace {
 
-// Asked for exactly the features each object is compiled with (kernels.cmake), in the names
-// both g++ and clang take; these also tell whether the operating system saves the registers.
+// Checks exactly the features that each object is compiled with (kernels.cmake), by names that g++
+// and clang accept. The builtins also check that the operating system saves the registers.
 bool cpu_runs(std::string_view isa)
 {
 #if defined(__x86_64__)

@@ -6,14 +6,14 @@
 #include <limits>
 #include <numbers>
 
-// How close the objects of a scene stand.
+// How many objects of a scene a line crosses.
 namespace packtrace {
 
-/// The box and the discs of some balls.
+/// The bounding box and the discs of a set of balls.
 struct BallCrowd {
     double low[3];
     double high[3];
-    double discs = 0;  ///< all areas together
+    double discs = 0;  ///< sum of their areas
 
     BallCrowd()
     {
@@ -28,8 +28,8 @@ struct BallCrowd {
         }
         discs += std::numbers::pi * radius * radius;
     }
-    /// How many balls a line through the box crosses: seen from anywhere, a convex body covers a
-    /// quarter of its surface (Cauchy). Not a number without balls.
+    /// The mean number of balls that a line through the box crosses. The mean projected area of a
+    /// convex body is a quarter of its surface (Cauchy). NaN without balls.
     [[nodiscard]] double crossed() const
     {
         const double x = high[0] - low[0];
@@ -39,8 +39,8 @@ struct BallCrowd {
     }
 };
 
-/// How many spheres, or balls around quadrics and polygons, a line among those in a scene's lists
-/// crosses at a guess.
+/// An estimate of the number of spheres, and of balls around quadrics and polygons, that a line
+/// crosses. It counts the objects in the scene's lists, not those in the bvh.
 template <class Real>
 [[nodiscard]] double crossed_by_a_line(const abi::GeometryView<Real>& scene)
 {

@@ -5,8 +5,8 @@
 
 namespace packtrace {
 
-// kernel_list.inc is written by the build: a line KERNELS(isa) for each set compiled in, followed
-// by PROBES(isa) where its probes are, too.
+// The build writes kernel_list.inc: a line KERNELS(isa) for each instruction set compiled in,
+// followed by PROBES(isa) if its probes are compiled in, too.
 #define KERNELS(isa)                        \
     namespace isa {                         \
     const abi::KernelTable& kernel_table(); \
@@ -24,7 +24,7 @@ namespace {
 
 [[maybe_unused]] void add_probes(const abi::ProbeKernels& probes, abi::KernelTable& table)
 {
-    // Those of Features::exact come first.
+    // The feature sets with Features::exact come first.
     constexpr int probe = abi::feature_set_count + abi::probe_set;
     table.single_precision.kernels[abi::probe_set] = probes.exact;
     table.single_precision.kernels[probe] = probes.single_precision;

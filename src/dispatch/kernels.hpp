@@ -9,10 +9,10 @@
 
 namespace packtrace {
 
-/// The kernels compiled in, narrowest first; those this machine cannot run too.
+/// All kernels that are compiled in, narrowest first, even if this machine cannot run them.
 [[nodiscard]] const std::vector<const abi::KernelTable*>& all_kernels();
 
-/// Whether this machine, and its operating system, run every instruction `isa` was compiled
+/// Whether this machine and its operating system support all instructions that `isa` is compiled
 /// with.
 [[nodiscard]] bool cpu_runs(std::string_view isa);
 
@@ -20,11 +20,11 @@ namespace packtrace {
 /// std::invalid_argument for any other.
 [[nodiscard]] const abi::KernelTable& kernels_of(std::string_view isa);
 
-/// The half of a table that works in `Real`.
+/// The part of a table for `Real`.
 template <class Real>
 [[nodiscard]] const abi::PrecisionTable<Real>& precision(const abi::KernelTable& table);
 
-/// The narrowest kernels that know everything a scene uses.
+/// The kernels with the fewest features that include all features a scene needs.
 template <class Real>
 [[nodiscard]] const abi::FeatureKernels<Real>& kernels_for(const abi::PrecisionTable<Real>& table,
                                                            abi::Features needed)
@@ -35,11 +35,11 @@ template <class Real>
     throw std::logic_error("no kernels know all that the scene uses");
 }
 
-/// Where lines cross more objects than this, neighbouring paths soon part, and streams bring those
-/// together again that go on (results/crowding.json).
+/// If lines cross more objects than this, neighbouring paths diverge soon, and stream kernels,
+/// which compact the rays that continue, are faster (results/crowding.json).
 inline constexpr double most_crossed_in_registers = 1.75;
 
-/// The kernels that trace frames of a scene in registers; null where streams trace them.
+/// The kernels that trace frames of a scene in registers; null if stream kernels trace them.
 template <class Real>
 [[nodiscard]] const abi::FusedKernels<Real>* fused_for(const abi::PrecisionTable<Real>& table,
                                                        abi::Features needed,
@@ -53,8 +53,8 @@ template <class Real>
     return nullptr;
 }
 
-/// Whether several tiles of a frame are rendered together, with their mirrored rays sorted: where
-/// these go down a hierarchy. Glass sends two rays on, whose light has an order of its own.
+/// Whether several tiles of a frame are rendered together and their mirrored rays sorted: if the
+/// rays traverse a bvh. Not for glass, whose two child rays must add their light in a fixed order.
 template <class Real>
 [[nodiscard]] bool sorts_mirrored(abi::Features needed, const abi::SceneView<Real>& scene)
 {

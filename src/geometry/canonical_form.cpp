@@ -14,10 +14,9 @@ namespace {
 
 constexpr double negligible = 1e-12;
 
-/// A constant of no more than these shares of what it is the rest of is none: along the world's
-/// axes squares are completed without rounding, so that only J itself is off, by the rounding of
-/// who wrote it; along turned axes each square and slope is off by several roundoffs of the
-/// largest.
+/// A constant counts as 0 if it is at most this share of the numbers that cancel in it. Along the
+/// world's axes squares are completed without rounding, so the only error is that of J as written.
+/// Along turned axes each square and slope has an error of several roundoffs of the largest.
 constexpr double aligned_rest = 0x1p-50;
 constexpr double turned_rest = 0x1p-46;
 
@@ -72,8 +71,8 @@ int rank_of(const Vec3& square)
     return (square.x != 0.0) + (square.y != 0.0) + (square.z != 0.0);
 }
 
-/// Eigenvalues that are nothing against the largest, to within this share, become 0 and go last;
-/// axes follow.
+/// Sets eigenvalues that are at most this share of the largest to 0, and moves them and their axes
+/// to the end.
 void sort_axes(SymmetricEigen& eigen, double share)
 {
     const double limit = share * largest_component(eigen.values);
@@ -88,8 +87,8 @@ void sort_axes(SymmetricEigen& eigen, double share)
             }
 }
 
-/// Turns the axes without a square so that the rest of the linear part, which is none to within
-/// this share of the whole, lies along the last.
+/// Turns the axes without a square, so that the remaining linear part lies along the last axis. A
+/// remaining part of at most this share of the whole counts as 0.
 void align_linear(SymmetricEigen& eigen, const Vec3& slope, double share)
 {
     if (rank_of(eigen.values) >= 2)
@@ -109,9 +108,9 @@ void align_linear(SymmetricEigen& eigen, const Vec3& slope, double share)
     eigen.vectors[1] = glm::cross(eigen.vectors[2], eigen.vectors[0]);
 }
 
-/// Moves along the axes until no axis has both a square and a slope, which is none to within this
-/// share of the whole. Far from the centre the constant is a small rest of large numbers, and says
-/// how wide a waist is, or whether there is one: it is computed in 113 bits.
+/// Moves the origin along the axes until no axis has both a square and a slope. A slope of at most
+/// this share of the whole counts as 0. Far from the centre large numbers cancel in the constant,
+/// which decides how wide a waist is and whether there is one. So it is computed in 113 bits.
 void complete_squares(CanonicalForm& form, const Vec3& slope, double constant, double share)
 {
     Vec3 shift{0.0};  // along the axes
@@ -133,8 +132,8 @@ void complete_squares(CanonicalForm& form, const Vec3& slope, double constant, d
     form.center = form.axes * shift;
 }
 
-/// How large the numbers are of which the constant is the rest. Those of a square that is far
-/// below the largest count by the largest, as it is off by roundoffs of that.
+/// The size of the numbers that cancel in the constant. Along turned axes each square counts as the
+/// largest one, because its error is some roundoffs of the largest.
 double size_of_rest(const CanonicalForm& form, double constant, bool is_turned)
 {
     const double largest = largest_component(form.square);
@@ -158,7 +157,7 @@ CanonicalForm canonical_form(const std::array<double, 10>& coefficients)
     matrix[2] = {E / 2, F / 2, C};
     const Vec3 slope{G, H, I};
     SymmetricEigen eigen = symmetric_eigen(matrix);
-    // Numbers along the world's axes are exact, however small.
+    // Along the world's axes coefficients are exact, so none of them is negligible.
     const bool is_turned = D != 0.0 || E != 0.0 || F != 0.0;
     const double share = is_turned ? negligible : 0.0;
     sort_axes(eigen, share);
@@ -166,7 +165,7 @@ CanonicalForm canonical_form(const std::array<double, 10>& coefficients)
 
     CanonicalForm form{.axes = eigen.vectors, .square = eigen.values};
     complete_squares(form, slope, J, share);
-    // A constant that is only what cancelling squares left over is none.
+    // A constant that may be only a rounding error of cancelled squares counts as 0.
     const double rest = is_turned ? turned_rest : aligned_rest;
     if (std::abs(form.constant) <= rest * size_of_rest(form, J, is_turned))
         form.constant = 0.0;

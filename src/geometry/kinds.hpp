@@ -9,13 +9,13 @@
 #include <utility>
 #include <vector>
 
-// The kinds of surfaces, a list each: whatever holds for all of them loops over these lists at
-// compile time, and asks a surface by overloads that its kind's file has.
+// The kinds of surfaces, with one list for each. Code for all kinds loops over the lists at compile
+// time, and calls overloads that are in the file of each kind.
 namespace packtrace {
 
 /// Surfaces in world space.
 struct SurfaceLists {
-    std::vector<LoweredSphere> spheres;  ///< rising surface numbers, as in every list
+    std::vector<LoweredSphere> spheres;  ///< in ascending order of surface numbers, as all lists
     std::vector<LoweredAnchoredSphere> anchored_spheres;
     std::vector<LoweredPlane> planes;
     std::vector<LoweredQuadric> quadrics;
@@ -64,11 +64,11 @@ struct KindOfList<std::vector<Kind> SurfaceLists::*> {
     using type = Kind;
 };
 
-/// The kind whose list a member pointer leads to.
+/// The kind of the list that a member pointer selects.
 template <class List>
 using KindOf = typename KindOfList<List>::type;
 
-/// What a surface is refined and shaded by.
+/// The record by which a surface is refined and shaded.
 template <class Kind>
 using ShapeOf = decltype(shape_of(std::declval<const Kind&>()));
 

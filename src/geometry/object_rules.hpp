@@ -12,19 +12,19 @@
 #include <optional>
 #include <tuple>
 
-// What every kind of surface answers with, and what they share in finding and packing it.
+// Types and functions that all kinds of surfaces share.
 namespace packtrace {
 
-/// Where a line from inside leaves again, as a t; nothing from outside.
+/// The t at which a line from inside leaves the surface; not set for a line from outside.
 using Exit = std::optional<double>;
 
-/// A box around a surface in world space, of infinite size around one without bounds.
+/// A box around a surface in world space. Its size is infinite for an unbounded surface.
 struct CenteredBox {
     Vec3 center{0.0};
-    Vec3 half{0.0};  ///< of its sizes
+    Vec3 half{0.0};  ///< half of the sizes
 };
 
-/// The first root above 0 of a t² + 2 b t + c; infinite where there is none.
+/// The smallest positive root of a t² + 2 b t + c; infinite if there is none.
 [[nodiscard]] inline double first_positive_root(double a, double b, double c)
 {
     constexpr double never = std::numeric_limits<double>::infinity();
@@ -39,7 +39,7 @@ struct CenteredBox {
     return first;
 }
 
-/// Whether error bounds in single precision hold for the magnitudes of a ball
+/// Whether the error bounds of single precision hold for the magnitudes of a ball
 /// (kernels/geometry/error_bounds.hpp).
 [[nodiscard]] inline bool is_certifiable(const Vec3& center, double radius)
 {
@@ -50,7 +50,7 @@ struct CenteredBox {
            radius >= smallest_certain;
 }
 
-/// Whether single precision reckons with all of a box; not with one at NaN.
+/// Whether single precision can represent all of a box. False for a box with a NaN.
 [[nodiscard]] inline bool within_tree(const CenteredBox& box)
 {
     bool within = true;
@@ -59,14 +59,17 @@ struct CenteredBox {
     return within;
 }
 
-/// Whether the surface ends on all sides, within box_of().
+/// Whether the surface is bounded, by box_of().
 template <class Kind>
 [[nodiscard]] bool is_bounded(const Kind& surface)
 {
-    return requires { box_of(surface); };
+    return requires
+    {
+        box_of(surface);
+    };
 }
 
-/// Whether a tree may hold the surface; one without a box stays in a list.
+/// Whether the surface may be in a bvh. A surface without a box stays in a list.
 template <class Kind>
 [[nodiscard]] bool fits_tree(const Kind& surface)
 {
@@ -76,7 +79,7 @@ template <class Kind>
         return false;
 }
 
-/// How many surface numbers a surface takes.
+/// The number of surface numbers that a surface takes.
 template <class Kind>
 [[nodiscard]] int pieces_of(const Kind&)
 {

@@ -18,10 +18,10 @@ struct LoweredPlane {
     std::int32_t surface = 0;
 };
 
-/// Appends the plane in world space; returns how many surface numbers it takes.
+/// Appends the plane in world space. Returns the number of surface numbers that it takes.
 int lower_kind(const Object& object, const Plane& plane, std::int32_t surface, SurfaceLists& lists);
 
-/// All that its normal points away from is inside.
+/// The inside of a plane is the half-space that its normal points away from.
 [[nodiscard]] Exit exit_of(const LoweredPlane& plane, const Vec3& eye, const Vec3& forward);
 
 [[nodiscard]] inline auto key_of(const LoweredPlane& plane)

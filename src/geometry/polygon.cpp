@@ -20,7 +20,7 @@ void bound(LoweredPolygon& polygon)
         low = glm::min(low, widen(corner.position));
         high = glm::max(high, widen(corner.position));
     }
-    // Rounding of the bound itself; far more than it can be.
+    // Far more than the rounding error of the bound itself.
     constexpr double slack = 1.0 + 1e-9;
     polygon.bound = 0.5 * low + 0.5 * high;
     polygon.box_half = slack * glm::max(high - polygon.bound, polygon.bound - low);
@@ -74,7 +74,7 @@ abi::PolygonRecord<Real> pack(const LoweredPolygon& polygon)
     round_to(packed.normal, polygon.normal);
     round_to(packed.point, widen(polygon.corners[0].position));
     round_to(packed.bound, polygon.bound);
-    // Rounding moves the centre and the corners.
+    // Enlarge the ball, because rounding moves the centre and the corners.
     const Vec3 size = glm::abs(polygon.bound);
     const double moved = 4.0 * static_cast<double>(std::numeric_limits<Real>::epsilon()) *
                          (size.x + size.y + size.z + polygon.bound_radius);

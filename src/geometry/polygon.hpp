@@ -17,20 +17,20 @@ struct LoweredPolygon {
     static constexpr abi::SurfaceKind kind = abi::SurfaceKind::polygon;
     static constexpr auto shapes = &abi::ShapesView::polygons;
 
-    /// Of each contour the first corner stands once more at its end.
+    /// Each contour ends with its first corner once more.
     std::vector<abi::PolygonCorner<double>> corners;
     Vec3 normal{0.0, 1.0, 0.0};  ///< unit, outwards
-    Vec3 bound{0.0};             ///< centre of a box around the corners, and of a ball
-    Vec3 box_half{0.0};
-    double bound_radius = 0.0;
+    Vec3 bound{0.0};             ///< centre of a box and of a ball around the corners
+    Vec3 box_half{0.0};          ///< half the sizes of the box
+    double bound_radius = 0.0;   ///< radius of the ball
     std::int32_t surface = 0;
 };
 
-/// Appends the polygon in world space; returns how many surface numbers it takes.
+/// Appends the polygon in world space. Returns the number of surface numbers that it takes.
 int lower_kind(const Object& object, const Polygon& polygon, std::int32_t surface,
                SurfaceLists& lists);
 
-/// A sheet has no inside.
+/// A polygon has no inside.
 [[nodiscard]] inline Exit exit_of(const LoweredPolygon&, const Vec3&, const Vec3&)
 {
     return std::nullopt;
@@ -49,7 +49,7 @@ int lower_kind(const Object& object, const Polygon& polygon, std::int32_t surfac
     return {polygon.bound, polygon.box_half};
 }
 
-/// Without its corners, which PackedCorners adds.
+/// Packs a polygon without its corners, which PackedCorners adds.
 template <class Real>
 [[nodiscard]] abi::PolygonRecord<Real> pack(const LoweredPolygon& polygon);
 
@@ -59,7 +59,7 @@ class PackedCorners {
 public:
     PackedCorners() = default;
 
-    /// Points `records`, which are those of `polygons`, to their corners.
+    /// Sets the pointers of `records`, which are the packed `polygons`, to their corners.
     PackedCorners(std::span<const LoweredPolygon* const> polygons,
                   std::span<abi::PolygonRecord<Real>> records);
 

@@ -19,45 +19,46 @@ namespace packtrace {
 namespace {
 
 /// Quadrics that stretch space more than this lose so many digits in single precision that no
-/// box with a little room holds their hits.
+/// slightly enlarged box contains their hits.
 constexpr double worst_condition = 1e3;
 
 struct Bound {
     Vec3 center{0.0};
     double radius = std::numeric_limits<double>::infinity();
-    Vec3 half{0.0};  ///< of the sizes of a box
+    Vec3 half{0.0};  ///< half the sizes of a box
 };
 
-/// No less than the length of `m * u` for any unit u.
+/// An upper bound of the length of `m * u` for unit u.
 double ellipsoid_radius(const Mat3& m)
 {
     return std::sqrt(glm::dot(m[0], m[0]) + glm::dot(m[1], m[1]) + glm::dot(m[2], m[2]));
 }
 
-/// The same for u with x² + y² <= 1 and |z| <= 1, whatever angles the columns are at.
+/// An upper bound of the length of `m * u` for u with x² + y² <= 1 and |z| <= 1. The columns need
+/// not be orthogonal.
 double drum_radius(const Mat3& m)
 {
     return std::sqrt(glm::dot(m[0], m[0]) + glm::dot(m[1], m[1])) + glm::length(m[2]);
 }
 
-/// The half axes of an ellipsoid in canonical space, or nothing for other surfaces.
+/// The half axes of an ellipsoid in canonical space; not set for other surfaces.
 std::optional<Vec3> half_axes(const CanonicalForm& form)
 {
     const Vec3 ratio = -form.constant / form.square;
-    // Infinite where a cylinder has no square.
+    // The ratio is infinite along the axis of a cylinder.
     if (form.linear != 0.0 || !(ratio.x > 0.0 && ratio.y > 0.0 && ratio.z > 0.0) ||
         !std::isfinite(ratio.x + ratio.y + ratio.z))
         return std::nullopt;
     return glm::sqrt(ratio);
 }
 
-/// A drum, straight or slanting: center + half * u with x² + y² <= 1 and |z| <= 1.
+/// A cylinder with caps, straight or slanting: center + half * u with x² + y² <= 1 and |z| <= 1.
 struct Drum {
     Vec3 center;
     Mat3 half;
 };
 
-/// Around a clipped surface, in its own space.
+/// The drum around a clipped surface, in the quadric's own space.
 std::optional<Drum> clipped_drum(const Quadric& quadric)
 {
     const auto sections = elliptic_sections(quadric);
@@ -79,14 +80,14 @@ Vec3 ellipsoid_box(const Mat3& m)
     return glm::sqrt(m[0] * m[0] + m[1] * m[1] + m[2] * m[2]);
 }
 
-/// The same for u with x² + y² <= 1 and |z| <= 1.
+/// The box of `m * u` for all u with x² + y² <= 1 and |z| <= 1.
 Vec3 drum_box(const Mat3& m)
 {
     return glm::sqrt(m[0] * m[0] + m[1] * m[1]) + glm::abs(m[2]);
 }
 
-/// No less than the ratio of the longest to the shortest length that a unit vector of world
-/// space can have in canonical space, where squares have the weights of `square`.
+/// An upper bound of LoweredQuadric::condition. Directions in canonical space have the weights of
+/// `square`.
 double condition_of(const Mat3& inverse, const Vec3& square)
 {
     const Mat3 back = glm::inverse(inverse);
@@ -105,9 +106,9 @@ double condition_of(const Mat3& inverse, const Vec3& square)
 Bound bound_of(const Quadric& quadric, const CanonicalForm& form, const Mat4& transform)
 {
     const Mat3 linear(transform);
-    // Rounding of the bound itself; far more than it can be.
+    // Far more than the rounding error of the bound itself.
     constexpr double slack = 1.0 + 1e-9;
-    // The inside of an ellipsoid turned inside out, and with it the caps, has no end.
+    // An ellipsoid turned inside out has an unbounded inside, and so unbounded caps.
     const bool endless = quadric.capped && form.constant > 0.0;
     if (const auto axes = endless ? std::nullopt : half_axes(form)) {
         Mat3 ellipsoid = linear * form.axes;
@@ -123,7 +124,7 @@ Bound bound_of(const Quadric& quadric, const CanonicalForm& form, const Mat4& tr
     return {};
 }
 
-/// The inverse with every entry rounded once.
+/// The inverse matrix, with each entry rounded once.
 Mat3 exact_inverse(const Mat3& m)
 {
     const Quad determinant = exact_determinant(m);
@@ -239,7 +240,8 @@ bool fits_tree(const LoweredQuadric& quadric)
 
 namespace {
 
-/// Whether a in a ray's a t² + 2 b t + c is a difference of squares: 0 along some directions.
+/// Whether the coefficient a of a ray's a t² + 2 b t + c is 0 for some directions, because it is a
+/// difference of squares.
 bool has_asymptotes(const LoweredQuadric& quadric)
 {
     const Vec3& s = quadric.square;
@@ -296,7 +298,7 @@ abi::QuadricRecord<Real> pack(const LoweredQuadric& quadric)
     packed.clip_low = static_cast<Real>(quadric.clip_low);
     packed.clip_high = static_cast<Real>(quadric.clip_high);
     round_to(packed.bound, quadric.bound);
-    // Rounding moves the centre.
+    // Enlarge the ball, because rounding moves the centre.
     const Vec3 size = glm::abs(quadric.bound);
     const double moved = 4.0 * static_cast<double>(std::numeric_limits<Real>::epsilon()) *
                          (size.x + size.y + size.z + quadric.bound_radius);
@@ -305,7 +307,7 @@ abi::QuadricRecord<Real> pack(const LoweredQuadric& quadric)
     packed.clipped = quadric.clipped() ? 1 : 0;
     packed.capped = quadric.capped ? 1 : 0;
     packed.has_asymptotes = has_asymptotes(quadric) ? 1 : 0;
-    // Single precision alone, in `fast`, would lose too much.
+    // Not in single precision, which would lose too many digits with Accuracy::fast.
     packed.turned =
         sizeof(Real) == sizeof(double) && has_asymptotes(quadric) && has_turned_axes(quadric);
     packed.surface = quadric.surface;

@@ -21,18 +21,19 @@ struct LoweredQuadric {
     Vec3 square{0.0};
     double linear = 0.0;
     double constant = 0.0;
-    /// Height in the quadric's own space, which begins at clip_base: clip·(P - clip_base).
+    /// The height z in the quadric's own space is clip·(P - clip_base).
     Vec3 clip{0.0};
     Vec3 clip_base{0.0};
     double clip_low = -std::numeric_limits<double>::infinity();
     double clip_high = std::numeric_limits<double>::infinity();
     bool capped = false;
-    Vec3 bound{0.0};  ///< centre of a ball around what is left after clipping
+    Vec3 bound{0.0};  ///< centre of a ball and of a box around the clipped surface
     double bound_radius = std::numeric_limits<double>::infinity();
-    Vec3 box_half{0.0};  ///< half the sizes of a box around the same centre
-    /// How much canonical space is stretched: its longest against its shortest length.
+    Vec3 box_half{0.0};  ///< half the sizes of the box
+    /// An upper bound of the ratio of the longest to the shortest length that world unit vectors
+    /// have in canonical space.
     double condition = 1.0;
-    std::int32_t surface = 0;  ///< with caps, the next two numbers are theirs, low and high
+    std::int32_t surface = 0;  ///< the low and the high cap have the next two numbers
 
     [[nodiscard]] bool clipped() const
     {
@@ -41,16 +42,16 @@ struct LoweredQuadric {
     }
 };
 
-/// Appends the quadric in world space; returns how many surface numbers it takes. A unit sphere
-/// under a similarity becomes a sphere.
+/// Appends the quadric in world space. Returns the number of surface numbers that it takes. A unit
+/// sphere under a similarity becomes a sphere.
 int lower_kind(const Object& object, const Quadric& quadric, std::int32_t surface,
                SurfaceLists& lists);
 
-/// A quadric in world space under its object's transform; validate() has let it pass.
+/// The quadric in world space, under its object's transform. It must have passed validate().
 [[nodiscard]] LoweredQuadric lower_quadric(const Object& object, const Quadric& quadric,
                                            std::int32_t surface);
 
-/// The ellipsoid that a sphere becomes under a transform that is no similarity.
+/// A sphere as a quadric, for transforms that are not similarities.
 [[nodiscard]] Quadric as_quadric(const Sphere& sphere);
 
 [[nodiscard]] Exit exit_of(const LoweredQuadric& quadric, const Vec3& eye, const Vec3& forward);
@@ -73,10 +74,11 @@ int lower_kind(const Object& object, const Quadric& quadric, std::int32_t surfac
 
 [[nodiscard]] bool is_bounded(const LoweredQuadric& quadric);
 
-/// Whether the quadric has bounds, and single precision can tell with little room where it is hit.
+/// Whether the quadric is bounded, and so well-conditioned that a slightly enlarged box contains
+/// its hits in single precision.
 [[nodiscard]] bool fits_tree(const LoweredQuadric& quadric);
 
-/// Where nothing is bent outwards, what is inside is convex.
+/// Whether the inside is convex: no square has a negative coefficient.
 [[nodiscard]] inline bool is_convex(const LoweredQuadric& quadric)
 {
     return quadric.square.x >= 0.0 && quadric.square.y >= 0.0 && quadric.square.z >= 0.0;

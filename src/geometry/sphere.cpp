@@ -11,20 +11,22 @@
 namespace packtrace {
 namespace {
 
-/// How many times the distance of its surface from the world's origin a sphere's radius must be;
-/// from the study of formulas in docs/numerics_derivations.md, where both forms are about as exact
-/// at this ratio. The sphere alone decides, so that nothing else of a scene changes a digit.
+/// A sphere is anchored if its radius is more than this many times the distance of its surface from
+/// the world's origin. At this ratio both forms are about equally exact (the study of formulas in
+/// docs/numerics_derivations.md). Only the sphere decides, so other objects of a scene do not
+/// change a digit.
 constexpr double anchored_ratio = 64.0;
-/// Smaller ones are not grounds but balls, which often stand at the world's origin: a plain sphere
-/// loses no more digits than its neighbours do, and goes into the hierarchy.
+/// A smaller sphere is not anchored. It is a ball rather than a ground, and balls are often near
+/// the world's origin. As a plain sphere it loses no more digits than its neighbours, and it can be
+/// in the bvh.
 constexpr double smallest_anchored = 4.0;
 
-/// By what share of itself a transform may stretch squares of lengths that no similarity would:
-/// what rounding leaves of a few rotations and factors. A transform that does more makes an
-/// ellipsoid, if one that only double tells from a sphere.
+/// The largest relative difference of squared lengths under a similarity. Rounding of a few
+/// rotations and factors stays within it. A transform with a larger difference makes an ellipsoid,
+/// even if only double can distinguish it from a sphere.
 constexpr double similarity_rounding = 0x1p-49;
 
-/// The point of the surface nearest the world's origin.
+/// The point of the surface nearest to the world's origin.
 Vec3 anchor_of(const LoweredSphere& sphere)
 {
     const double distance = glm::length(sphere.center);
@@ -33,7 +35,7 @@ Vec3 anchor_of(const LoweredSphere& sphere)
     return sphere.center - sphere.center * (sphere.radius / distance);
 }
 
-/// The factor of a similarity transform, or 0 when angles or ratios of lengths change.
+/// The scale of a similarity; 0 for other transforms.
 double similarity_scale(const Mat4& transform)
 {
     const Mat3 linear(transform);
@@ -54,7 +56,7 @@ bool is_anchored(const LoweredSphere& sphere)
 {
     if (sphere.radius <= smallest_anchored)
         return false;
-    // Most spheres are not by far, which costs no square root.
+    // Most spheres are far from anchored. This test needs no square root.
     const double reach = sphere.radius * (1.0 + 2.0 / anchored_ratio);
     if (glm::dot(sphere.center, sphere.center) > reach * reach)
         return false;
@@ -78,7 +80,7 @@ int lower_kind(const Object& object, const Sphere& sphere, std::int32_t surface,
                SurfaceLists& lists)
 {
     if (!lower_sphere(sphere, object.transform, surface, lists)) {
-        // Moved to its own centre first, so that no digits are lost to it.
+        // Transform the centre first, so that no digits are lost.
         Object centered = object;
         centered.transform[3] = object.transform * glm::dvec4(sphere.center, 1.0);
         lists.quadrics.push_back(
@@ -114,7 +116,8 @@ double center_error(const LoweredSphere& sphere)
     return 1.000001 * glm::length(widen(rounded) - sphere.center);
 }
 
-/// The curvature form around the anchor as rounded: what rounding moved goes into the offset.
+/// The curvature form around the rounded anchor. The offset corrects for the rounding of the
+/// anchor.
 template <class Real>
 abi::AnchoredSphere<Real> pack(const LoweredAnchoredSphere& sphere)
 {

@@ -9,8 +9,8 @@
 
 #include <type_traits>
 
-// Spheres. One whose surface passes so near the world's origin for its size that its curvature
-// there is more exact than its centre, such as a ground, is stored as an anchored sphere.
+// Spheres. A large sphere whose surface passes near the world's origin, such as a ground, is stored
+// as an anchored sphere, because its curvature there is more exact than its centre.
 namespace packtrace {
 
 struct SurfaceLists;
@@ -24,8 +24,8 @@ struct LoweredSphere {
     std::int32_t surface = 0;
 };
 
-/// A sphere of which kernels use the curvature at `anchor`, the point of its surface nearest the
-/// world's origin, in place of its centre.
+/// A sphere for which kernels use the curvature at `anchor` in place of the centre. The anchor is
+/// the point of its surface nearest to the world's origin.
 struct LoweredAnchoredSphere {
     static constexpr abi::SurfaceKind kind = abi::SurfaceKind::anchored_sphere;
     static constexpr auto shapes = &abi::ShapesView::anchored_spheres;
@@ -36,26 +36,25 @@ struct LoweredAnchoredSphere {
     std::int32_t surface = 0;
 };
 
-/// Either kind.
+/// Either kind of sphere.
 template <class Kind>
 concept AnySphere =
     std::is_same_v<Kind, LoweredSphere> || std::is_same_v<Kind, LoweredAnchoredSphere>;
 
-/// Appends the sphere to the list of what it is in world space; returns how many surface numbers it
-/// takes. Under a similarity it stays a sphere, else it becomes a quadric.
+/// Appends the sphere in world space to the list of its kind: under a similarity it stays a sphere,
+/// otherwise it becomes a quadric. Returns the number of surface numbers that it takes.
 int lower_kind(const Object& object, const Sphere& sphere, std::int32_t surface,
                SurfaceLists& lists);
 
-/// Appends the sphere under a similarity; false under any other transform.
+/// Appends the sphere under a similarity. Returns false for other transforms.
 bool lower_sphere(const Sphere& sphere, const Mat4& transform, std::int32_t surface,
                   SurfaceLists& lists);
 
-/// Whether a sphere's surface passes so near the world's origin for its size that it is stored as
-/// an anchored one.
+/// Whether a sphere is stored as an anchored sphere: its surface passes near the world's origin,
+/// relative to its size.
 [[nodiscard]] bool is_anchored(const LoweredSphere& sphere);
 
-/// Moves the large spheres whose surface passes near the world's origin for their size to a list of
-/// their own, and finds their anchors.
+/// Moves the spheres with is_anchored() to the list of anchored spheres, and finds their anchors.
 void part_anchored_spheres(SurfaceLists& lists);
 
 template <AnySphere Kind>
@@ -87,7 +86,7 @@ template <AnySphere Kind>
 
 [[nodiscard]] abi::SphereShape shape_of(const LoweredSphere& sphere);
 
-/// How far rounding to Real moves a sphere's centre, at most.
+/// A bound of the distance by which rounding to Real moves a sphere's centre.
 template <class Real>
 [[nodiscard]] double center_error(const LoweredSphere& sphere);
 

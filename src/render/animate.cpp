@@ -17,7 +17,8 @@
 namespace packtrace {
 namespace {
 
-// Upwards as the scene's camera has it, so that a camera which looks at the centre keeps its pose.
+// The up vector of the scene's camera, so that a camera that already looks at the centre keeps its
+// pose. If the view runs along it, the forward vector replaces it.
 Vec3 upwards(const Camera& start, const Vec3& view)
 {
     const Vec3& up = start.rotation[1];
@@ -25,7 +26,8 @@ Vec3 upwards(const Camera& start, const Vec3& view)
     return along ? start.rotation[2] : up;
 }
 
-/// `start` looking at the orbit's centre, then turned about its axis by `share` of the whole.
+/// `start`, made to look at the orbit's centre, then rotated about its axis by `share` of the
+/// orbit.
 Camera orbit_camera(const Camera& start, const Orbit& orbit, double share)
 {
     const Vec3 arm = start.position - orbit.center;
@@ -46,8 +48,8 @@ Vec3 slope_after(std::span<const CameraKey> keys, std::size_t i, Part part)
            static_cast<double>(keys[i + 1].frame - keys[i].frame);
 }
 
-/// Change per frame at key `i`: that of the parabola through it and its neighbours; at the ends
-/// that of the straight line to the only neighbour.
+/// Change per frame at key `i`: the slope of the parabola through the key and its neighbours. At
+/// the ends it is the slope of the straight line to the only neighbour.
 Vec3 slope_at(std::span<const CameraKey> keys, std::size_t i, Part part)
 {
     if (i == 0)
@@ -61,7 +63,7 @@ Vec3 slope_at(std::span<const CameraKey> keys, std::size_t i, Part part)
     return (right * before + left * after) / (left + right);
 }
 
-/// Hermite's cubic from key `i` to the next, `u` in [0, 1].
+/// The cubic Hermite curve from key `i` to the next, `u` in [0, 1].
 Vec3 blend(std::span<const CameraKey> keys, std::size_t i, double u, Part part)
 {
     const double frames = keys[i + 1].frame - keys[i].frame;
@@ -73,7 +75,7 @@ Vec3 blend(std::span<const CameraKey> keys, std::size_t i, double u, Part part)
     return from + u * way + u * rest * (rest * start + u * end);
 }
 
-/// The pose at `frame` on the curve through at least two keys in rising frame order.
+/// The pose at `frame` on the curve through at least two keys in ascending frame order.
 CameraKey pose_between(std::span<const CameraKey> keys, int frame)
 {
     if (frame <= keys.front().frame)

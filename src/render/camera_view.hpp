@@ -8,8 +8,8 @@
 
 namespace packtrace {
 
-/// The scene's camera over its own canvas, rounded to the kernels' precision, its rays going
-/// through `sample` of each pixel.
+/// The scene's camera and canvas, rounded to the kernels' precision. Rays go through `sample` of
+/// each pixel.
 template <class Real>
 [[nodiscard]] abi::CameraView<Real> camera_view(const Scene& scene, const LoweredScene& lowered,
                                                 const Vec2& sample)
@@ -24,14 +24,14 @@ template <class Real>
     }
     view.first_x = static_cast<Real>(sample.x - 0.5 * scene.width);
     view.first_y = static_cast<Real>(0.5 * scene.height - sample.y);
-    // Packets count what is beyond t_min, the notes also what is there.
+    // Packets count hits with t > t_min, the notes also those with t = t_min.
     view.t_min = std::nextafter(static_cast<Real>(lowered.camera_t_min), Real(0));
     for (std::size_t i = 0; i < lowered.eye_inside.size(); ++i)
         view.inside[i] = lowered.eye_inside[i];
     return view;
 }
 
-/// The same, with its rays where the scene says.
+/// As above; rays go through the scene's pixel sample.
 template <class Real>
 [[nodiscard]] abi::CameraView<Real> camera_view(const Scene& scene, const LoweredScene& lowered)
 {

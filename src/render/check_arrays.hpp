@@ -6,8 +6,8 @@
 #include <stdexcept>
 #include <string>
 
-// Throw std::invalid_argument where a caller left out an array that is read or written. Of no rays
-// there need be none.
+// These functions throw std::invalid_argument if an array that is read or written is null. Without
+// rays all arrays may be null.
 namespace packtrace {
 
 inline void check_array(const void* array, const char* name, std::size_t count)
@@ -44,7 +44,7 @@ void check_starts(const StartsView<Real>& starts, std::size_t count)
     check_array(starts.surface, "surface of starts", count);
 }
 
-/// Vectors have arrays for all components or for none; points and starts come with normals.
+/// A vector has arrays for all components or for none. Points and starts need the normals.
 template <class Real>
 void check_hits(const HitsView<Real>& hits, std::size_t count)
 {

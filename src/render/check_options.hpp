@@ -8,17 +8,17 @@
 
 namespace packtrace {
 
-/// Most samples a pixel.
+/// The largest number of samples per pixel.
 inline constexpr int most_samples = 1024;
 
-/// Throws std::invalid_argument for a value that an enumeration up to `last` does not have.
+/// Throws std::invalid_argument for a value beyond `last`, the last one of its enumeration.
 template <class Enumeration>
 inline void check_enumeration(const std::string& option, Enumeration value, Enumeration last)
 {
     check_number(option, static_cast<int>(value), 0, static_cast<int>(last));
 }
 
-/// Throws std::invalid_argument for a choice that only packets have.
+/// Throws std::invalid_argument for options that only the packet kernel has.
 inline void check_scalar(const RenderOptions& options)
 {
     const char* const choice = options.isa != "auto"                       ? "isa"
@@ -32,7 +32,8 @@ inline void check_scalar(const RenderOptions& options)
                                     ", only packets do; leave it out or use the packet kernel");
 }
 
-/// Throws std::invalid_argument for values that are none, and for what the kernel has no choice of.
+/// Throws std::invalid_argument for invalid enumeration values, and for options that the chosen
+/// kernel does not have.
 inline void check_kernel(const RenderOptions& options)
 {
     check_enumeration("kernel", options.kernel, Kernel::scalar);
@@ -43,7 +44,7 @@ inline void check_kernel(const RenderOptions& options)
         check_scalar(options);
 }
 
-/// Returns the options. Throws std::invalid_argument with one line for those that are impossible.
+/// Returns the options. Throws std::invalid_argument, with one line, for impossible ones.
 inline RenderOptions checked_options(const RenderOptions& options)
 {
     check_kernel(options);
@@ -57,8 +58,7 @@ inline RenderOptions checked_options(const RenderOptions& options)
     return options;
 }
 
-/// What of the scene's picture is rendered. Throws std::invalid_argument for a region that is not
-/// within it.
+/// The region to render. Throws std::invalid_argument for a region that is not inside the picture.
 [[nodiscard]] inline Region checked_region(const RenderOptions& options, const Scene& scene)
 {
     if (!options.region)

@@ -70,7 +70,7 @@ std::size_t FramePattern::read_place(std::string_view text, std::size_t at)
         (digits_ < 0 ? before_ : after_) += '%';
         return 1;
     }
-    // Nothing, or a zero and one digit: %04d.
+    // Between % and d there is nothing, or a zero and one digit: %04d.
     std::size_t end = at;
     int digits = 1;
     if (at + 1 < text.size() && text[at] == '0' && is_digit(text[at + 1])) {

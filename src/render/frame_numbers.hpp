@@ -3,7 +3,7 @@
 #include <string>
 #include <string_view>
 
-// Which frames of an animation are meant, and what their files are called.
+// Ranges of an animation's frames, and the names of their files.
 namespace packtrace {
 
 /// Frames of an animation, both ends included.
@@ -17,28 +17,28 @@ struct FrameRange {
     }
 };
 
-/// Reads "A..B". Throws std::invalid_argument when it is something else or A > B.
+/// Reads "A..B". Throws std::invalid_argument for other text and if A > B.
 [[nodiscard]] FrameRange parse_frame_range(std::string_view text);
 
-/// Throws std::invalid_argument when the range leaves 0 … frames - 1.
+/// Throws std::invalid_argument unless the range is within 0 … frames - 1.
 void check_frame_range(const FrameRange& range, int frames);
 
-/// A file name with a place for the frame's number: %d, or %0Nd for at least N digits with zeros
-/// in front. %% stands for a percent sign.
+/// A file name with a placeholder for the frame's number: %d, or %0Nd for at least N digits with
+/// leading zeros. %% stands for a percent sign.
 class FramePattern {
 public:
-    /// Throws std::invalid_argument when `text` has no such place, two, or another %.
+    /// Throws std::invalid_argument if `text` has no placeholder, two, or another %.
     explicit FramePattern(std::string_view text);
 
     [[nodiscard]] std::string name(int frame) const;
 
 private:
-    /// Reads what follows a % at `at`; returns how much that was.
+    /// Reads the text after a %, from `at` on. Returns the number of characters read.
     std::size_t read_place(std::string_view text, std::size_t at);
 
     std::string before_;
     std::string after_;
-    int digits_ = -1;  ///< -1 until the place was met
+    int digits_ = -1;  ///< -1 until the placeholder was read
 };
 
 }  // namespace packtrace

@@ -32,7 +32,7 @@ FrameRenderer<Real>::FrameRenderer(const Scene& scene, LoweredScene lowered,
 {
 }
 
-/// The tiles that the region has a part of.
+/// The tiles that overlap the region.
 template <class Real>
 Region FrameRenderer<Real>::whole_tiles(const Region& region) const
 {
@@ -50,7 +50,7 @@ TileGrid FrameRenderer<Real>::blocks_of(const Region& region) const
     return TileGrid(region, tiles_.block_edge(region, tbb::this_task_arena::max_concurrency()));
 }
 
-/// `image` holds the tiles.
+/// `image` has the size of `tiles`.
 template <class Real>
 FrameCounts FrameRenderer<Real>::render_tiles(const Region& tiles, Image<Real>& image) const
 {
@@ -61,13 +61,14 @@ FrameCounts FrameRenderer<Real>::render_tiles(const Region& tiles, Image<Real>& 
                           [&](const Region& piece) { return tiles_.render(canvas, piece); });
 }
 
-/// The tiles `around` once, which `image` holds, then the pixels of `tiles` with contrast in full.
+/// Renders the tiles `around` with one sample per pixel, then the pixels of `tiles` with contrast
+/// with all samples. `image` has the size of `around`.
 template <class Real>
 FrameCounts FrameRenderer<Real>::render_adaptive(const Region& tiles, const Region& around,
                                                  Image<Real>& image) const
 {
     const Canvas<Real> canvas(image, around.x, around.y);
-    // The rays of those around count for another region.
+    // Rays of tiles that are only in `around` are not counted: they belong to another region.
     const TileGrid all = tiles == around ? blocks_of(around) : TileGrid(around);
     const TileGrid grid(tiles);
     Progress done(all.count() + grid.count(), options_.progress, options_.stop);
@@ -104,7 +105,7 @@ FrameCounts FrameRenderer<Real>::render_region(const Region& region, Image<Real>
 template <class Real>
 FrameCounts FrameRenderer<Real>::render(Image<Real>& image) const
 {
-    // One whose pixels were moved away keeps its sides.
+    // is_whole(): an image whose pixels were moved away keeps its width and height.
     if (image.width != region_.width || image.height != region_.height || !image.is_whole())
         image = Image<Real>::unset(region_.width, region_.height);
     return run_on_threads(options_.threads, [&] { return render_region(region_, image); });

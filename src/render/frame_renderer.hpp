@@ -6,22 +6,22 @@
 
 namespace packtrace {
 
-/// Whole pictures of a lowered scene, with the kernels of any table: what Renderer is made of.
+/// Renders pictures of a lowered scene with the kernels of any table. It implements Renderer.
 template <class Real>
 class FrameRenderer {
 public:
-    /// Of the options threads, sampling, progress, stop and region count. Throws
-    /// std::invalid_argument for impossible ones.
+    /// Uses the options for threads, sampling, traversal, progress, stop, region and force_general.
+    /// Throws std::invalid_argument for impossible ones.
     FrameRenderer(const Scene& scene, LoweredScene lowered, const abi::KernelTable& table,
                   const RenderOptions& options);
 
-    /// As Renderer::render.
+    /// As Renderer::render().
     FrameCounts render(Image<Real>& image) const;
 
-    /// Renders the rows of `image` alone, the first of which is row `first` of the picture. They
-    /// have the bits they have in the whole picture; counts are of them alone. Rows are whole
-    /// tiles: `first` is a multiple of a tile's size, and so is their number, but at the picture's
-    /// end.
+    /// Renders only the rows of `image`; its first row is row `first` of the picture. The rows
+    /// equal those of the whole picture, bit for bit. Counts are those of these rows. Rows must be
+    /// whole tiles: `first` is a multiple of a tile's size, and so is the number of rows, except at
+    /// the picture's end.
     FrameCounts render_rows(int first, Image<Real>& image) const;
 
     [[nodiscard]] std::size_t scene_bytes() const

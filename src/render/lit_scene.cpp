@@ -7,7 +7,7 @@
 namespace packtrace {
 namespace {
 
-/// All but what is no point.
+/// Lights all points except those with a NaN.
 template <class Real>
 void light_all(const abi::PointsView<Real>& points, std::uint8_t* mask)
 {
@@ -37,7 +37,7 @@ void LitScene<Real>::prepare()
     casters_ = &shapes_;
     view_ = shapes_.view();
     if (lowered_casters_ != nullptr) {
-        // No thread takes up other work that might wait for this.
+        // Isolated, so that no thread takes other work meanwhile, which might wait for this one.
         tbb::this_task_arena::isolate([&] {
             packed_casters_ = std::make_unique<PackedScene<Real>>(*lowered_casters_, traversal_);
         });

@@ -15,16 +15,16 @@
 
 namespace packtrace {
 
-/// What a RayScene's lights reach. What that takes beyond the shapes themselves is made when it is
-/// first asked for. lit() may be called from several threads at once.
+/// Answers RayScene::lit(). What it needs besides the shapes is built by the first call. lit() may
+/// be called from several threads at once.
 template <class Real>
 class LitScene {
 public:
-    /// `shapes` is `lowered` with all of its objects, packed, and outlives this.
+    /// `shapes` is `lowered` packed, with all of its objects. It must outlive this.
     LitScene(const LoweredScene& lowered, const PackedScene<Real>& shapes, Traversal traversal,
              const abi::PrecisionTable<Real>& kernels);
 
-    /// As RayScene::lit(); `light` counts those that are not ambient.
+    /// As RayScene::lit(), except that `light` is the index among the lights that are not ambient.
     void lit(const abi::PointsView<Real>& points, std::size_t light, std::uint8_t* mask);
 
 private:
@@ -38,8 +38,8 @@ private:
     const PackedScene<Real>& shapes_;
     Traversal traversal_;
     const abi::PrecisionTable<Real>& kernels_;
-    std::unique_ptr<LoweredScene> lowered_casters_;  ///< where some objects cast no shadow: the
-    /// others
+    /// The objects that cast shadows, until they are packed; null if all do.
+    std::unique_ptr<LoweredScene> lowered_casters_;
     std::vector<MadeWhenPaid<PackedLightBuffer>> buffers_;  ///< by light
 
     std::once_flag prepared_;

@@ -12,10 +12,10 @@
 #include <string>
 #include <vector>
 
-// Which objects an update of a RayScene is about.
+// The objects that an update of a RayScene moves.
 namespace packtrace {
 
-/// Throws std::invalid_argument where a scene has not as many objects as are held.
+/// Throws std::invalid_argument unless the scene has as many objects as the RayScene.
 inline void check_same_objects(std::size_t given, std::size_t held)
 {
     if (given != held)
@@ -24,7 +24,7 @@ inline void check_same_objects(std::size_t given, std::size_t held)
                                     "; make a new RayScene");
 }
 
-/// Each number once. Throws std::invalid_argument for one that is not below `count`.
+/// Removes duplicates. Throws std::invalid_argument for a number that is not below `count`.
 [[nodiscard]] inline std::vector<std::int32_t> distinct_objects(
     std::span<const std::int32_t> numbers, std::size_t count)
 {
@@ -44,7 +44,7 @@ inline void check_same_objects(std::size_t given, std::size_t held)
     return distinct;
 }
 
-/// The objects that are not where they were. There are as many as before.
+/// The objects of `now` that differ from those of `before`. Both must have equally many objects.
 [[nodiscard]] inline std::vector<std::int32_t> moved_objects(const bounds::BoundedScene& before,
                                                              const Scene& now)
 {

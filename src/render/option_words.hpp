@@ -5,7 +5,7 @@
 
 #include <array>
 
-// The words of the program and of Python for what render options choose between.
+// The words for the values of render options, for the program and for Python.
 namespace packtrace {
 
 constexpr std::array<language::Spelling<Kernel>, 2> spellings(Kernel)

@@ -5,10 +5,10 @@
 #include <array>
 #include <type_traits>
 
-// Between a precision that is chosen at run time and the type that templates take.
+// Maps a precision chosen at run time to the type that templates need.
 namespace packtrace {
 
-/// Those of packets.
+/// The precisions of packets.
 inline constexpr std::array packet_precisions{Precision::single, Precision::double_};
 
 /// The precision of float, double or long double.
@@ -17,7 +17,7 @@ inline constexpr Precision precision_of = std::is_same_v<Real, float>    ? Preci
                                           : std::is_same_v<Real, double> ? Precision::double_
                                                                          : Precision::extended;
 
-/// What `call.template operator()<Real>()` returns for the type of one of packet_precisions.
+/// Returns `call.template operator()<Real>()` for the type of one of packet_precisions.
 template <class Call>
 auto with_packet_real(Precision precision, const Call& call)
 {
@@ -25,7 +25,7 @@ auto with_packet_real(Precision precision, const Call& call)
                                           : call.template operator()<double>();
 }
 
-/// The same for the type of any precision.
+/// Returns `call.template operator()<Real>()` for the type of any precision.
 template <class Call>
 auto with_real(Precision precision, const Call& call)
 {

@@ -7,21 +7,21 @@
 
 namespace packtrace {
 
-/// What answers a RayScene's questions.
+/// The implementation of RayScene's queries: packets or the scalar reference.
 template <class Real>
 class RayBackend {
 public:
     virtual ~RayBackend() = default;
-    /// `starts` is null for rays from anywhere.
+    /// `starts` is null for rays that do not leave earlier hits.
     virtual void closest_hits(const RaysView<Real>& rays, const StartsView<Real>* starts,
                               const HitsView<Real>& hits) const = 0;
     virtual void occluded(const RaysView<Real>& rays, std::uint8_t* mask) const = 0;
-    /// `light` is the number among those of the scene that are not ambient.
+    /// `light` is the index among the lights that are not ambient.
     virtual void lit(const PointsView<Real>& points, std::size_t light,
                      std::uint8_t* mask) const = 0;
     virtual void all_hits(const RaysView<Real>& rays,
                           const typename RayScene<Real>::TakeHits& take) const = 0;
-    /// As RayScene::update; `moved` are objects of the scene, each there once, without a fault.
+    /// As RayScene::update(). `moved` has objects of the scene, without duplicates and faults.
     virtual SceneUpdate update(const Scene& scene, std::span<const MovedShape> moved) = 0;
 };
 

@@ -25,13 +25,13 @@
 namespace packtrace {
 namespace {
 
-// Kernels count in ints; longer streams go in pieces.
+// Kernels count rays in int, so longer streams are split.
 constexpr std::size_t longest_stream = std::size_t{1} << 20;
 
-// All hits are gathered before they are sorted; shorter pieces bound that memory.
+// All hits of a piece are gathered before they are sorted; short pieces limit that memory.
 constexpr std::size_t longest_gathering = 256;
 
-/// From this cost on, against what a hierarchy cost when it was built, one is built anew.
+/// A refitted bvh is rebuilt if it costs more than this, relative to its cost when it was built.
 constexpr double most_refit_cost = 1.5;
 
 template <class Real>
@@ -75,10 +75,11 @@ void add_starts(abi::RaysView<Real>& piece, const StartsView<Real>& starts, std:
     piece.start_surface = starts.surface + first;
 }
 
-/// What numbers below 0 say: a surface's inner side, by its complement, or any that there is none.
+/// The meaning of a negative surface number. inner_side: the complement of the surface whose inner
+/// side a ray leaves. no_surface: the point is on no surface.
 enum class BelowZero { inner_side, no_surface };
 
-/// Throws where a number is of no surface of `count`.
+/// Throws std::invalid_argument unless all numbers are valid for `count` surfaces.
 void check_surfaces(std::span<const std::int32_t> numbers, std::int32_t count, BelowZero below)
 {
     const auto is_right = [&](std::int32_t number) {
@@ -93,15 +94,15 @@ void check_surfaces(std::span<const std::int32_t> numbers, std::int32_t count, B
                                     "; give the numbers that hits of this scene have");
 }
 
-/// A hit as it is sorted: by its t before rounding.
+/// A hit to be sorted, by its t before rounding to Real.
 template <class Real>
 struct FoundHit {
     double t;
     std::int32_t object;
     SurfaceHit<Real> hit;
 
-    /// Where an object is hit twice at one t, as on the rim of a cap, the normals decide: the order
-    /// must not be that of the search.
+    /// If an object is hit twice at one t, as on the rim of a cap, the normals decide, so that the
+    /// order does not depend on the traversal.
     bool operator<(const FoundHit& other) const
     {
         const Real(&a)[3] = hit.normal;
@@ -117,7 +118,7 @@ using HitsByRay = std::vector<std::vector<FoundHit<Real>>>;
 template <class Real>
 void gather(void* by_ray, int ray, double t, std::int32_t object, const Real (&normal)[3])
 {
-    // What Real has no number for is no hit.
+    // A t that overflows in Real is a miss.
     if (t > double{std::numeric_limits<Real>::max()})
         return;
     auto& hits = (*static_cast<HitsByRay<Real>*>(by_ray))[static_cast<std::size_t>(ray)];
@@ -204,17 +205,17 @@ public:
     }
 
 private:
-    /// What a refit starts from.
+    /// The data that a refit needs.
     struct Kept {
         LoweredScene lowered;
         Bvh bvh;
         double built_cost = 0.0;
     };
 
-    /// Takes over a lowered scene; `keep`, if any, gets what refit() starts from.
+    /// Packs a lowered scene. If `keep` is not null, it receives the data for refit().
     void pack(LoweredScene lowered, Kept* keep)
     {
-        // Rays of a caller know no shadows.
+        // Queries with the caller's own rays ignore casts_shadow.
         std::vector<bool> casts_shadow;
         casts_shadow.swap(lowered.casts_shadow);
         auto packed = std::make_unique<PackedScene<Real>>(lowered, traversal_,
@@ -229,13 +230,13 @@ private:
             keep->lowered = std::move(lowered);
     }
 
-    /// Returns the hierarchy's cost against that when it was built, or nothing where it has to be
-    /// built anew.
+    /// Returns the cost of the refitted bvh relative to its cost when it was built, or nothing if
+    /// it must be rebuilt.
     std::optional<double> refit(const Scene& scene, std::span<const MovedShape> moved)
     {
         if (kept_ == nullptr)
             return std::nullopt;
-        // Of no use where anything below fails or throws.
+        // The kept data are lost if anything below fails or throws, because they are then invalid.
         std::unique_ptr<Kept> kept = std::move(kept_);
         if (!move_objects(scene, moved, packed_->view().shapes.index, kept->lowered))
             return std::nullopt;
@@ -249,8 +250,8 @@ private:
         return cost;
     }
 
-    /// Puts back what a refit does not look at either: numbers of lights are checked against those
-    /// of the scene that this was made of.
+    /// Restores lights and shadows of the scene that this was made of. A refit does not read them
+    /// either, and indices of lights are checked against that scene.
     void keep_shadows(LoweredScene& lowered) const
     {
         lowered.lights = lights_;
@@ -278,14 +279,14 @@ private:
     SelfHits self_hits_;
     Traversal traversal_;
     const abi::PrecisionTable<Real>& kernels_;
-    std::vector<bool> casts_shadow_;  ///< as casting_objects() has it
-    std::vector<Light> lights_;       ///< as LoweredScene has them
+    std::vector<bool> casts_shadow_;  ///< from casting_objects()
+    std::vector<Light> lights_;       ///< from LoweredScene::lights
     bool shadows_ = true;
     std::unique_ptr<PackedScene<Real>> packed_;
     std::unique_ptr<LitScene<Real>> lit_;
-    std::unique_ptr<Kept> kept_;  ///< from the first update on, where there is a hierarchy
+    std::unique_ptr<Kept> kept_;  ///< since the first update, if there is a bvh
     std::size_t scratch_bytes_ = 0;
-    std::int32_t surfaces_ = 0;  ///< how many numbers they have
+    std::int32_t surfaces_ = 0;  ///< number of surfaces
     mutable tbb::enumerable_thread_specific<AlignedArray<std::byte>> scratch_;
 };
 

@@ -100,7 +100,7 @@ public:
     }
 
 private:
-    // The reference's ranges are closed, those of RaysView open.
+    // Ray intervals of the reference are closed, those of RaysView are open.
     [[nodiscard]] reference::Hit<Real> closest(const ScalarRay<Real>& ray) const
     {
         const Real inf = std::numeric_limits<Real>::infinity();
@@ -109,7 +109,7 @@ private:
                                                std::nextafter(ray.t_max, -inf));
     }
 
-    /// Where some objects cast no shadow, the others.
+    /// The objects that cast shadows; not set if all do.
     [[nodiscard]] std::optional<reference::Bodies<Real>> casters_of(const Scene& scene) const
     {
         if (casts_shadow_.empty())
@@ -136,7 +136,7 @@ private:
         return !any_in_way(casters_ ? *casters_ : bodies_, start, way, end, place);
     }
 
-    std::vector<bool> casts_shadow_;  ///< as casting_objects() has it
+    std::vector<bool> casts_shadow_;  ///< from casting_objects()
     reference::Bodies<Real> bodies_;
     std::optional<reference::Bodies<Real>> casters_;
     std::vector<Light> lights_;

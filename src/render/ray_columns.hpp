@@ -9,10 +9,10 @@
 #include <limits>
 #include <vector>
 
-// Rays of the caller's own in arrays that grow, and arrays for what they hit.
+// The caller's own rays in arrays that grow, and arrays for their hits.
 namespace packtrace {
 
-/// The vector in place i of three columns.
+/// The vector at index i of three columns.
 template <class Real>
 [[nodiscard]] Vec3 vector_at(const std::array<std::vector<Real>, 3>& columns, std::size_t i)
 {
@@ -89,7 +89,7 @@ struct HitColumns {
     }
 };
 
-/// The same with all that rays need which leave the hits.
+/// Closest hits by column, with the arrays of HitsView for rays that leave the hits.
 template <class Real>
 struct LeftHitColumns : HitColumns<Real> {
     std::array<std::vector<Real>, 3> outer_start;
@@ -117,7 +117,7 @@ struct LeftHitColumns : HitColumns<Real> {
     }
 };
 
-/// What rays start on, by column.
+/// The surfaces that rays start on, by column.
 template <class Real>
 struct StartColumns {
     std::array<std::vector<Real>, 3> point;

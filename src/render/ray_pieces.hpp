@@ -8,8 +8,8 @@
 #include <cstddef>
 #include <cstdint>
 
-// A caller's rays in pieces: parts of arrays, and structs that are copied into arrays for kernels,
-// their hits back, a chunk at a time.
+// Splits a caller's rays into pieces. Arrays are split into parts of arrays. Structs are copied
+// into arrays for the kernels, one chunk at a time, and their hits are copied back.
 namespace packtrace {
 
 /// Null stays null.
@@ -60,8 +60,8 @@ PointsView<Real> part_of(const PointsView<Real>& points, std::size_t first, std:
             count};
 }
 
-/// Calls `work(first, count)` for all `rays`, a piece after the other where the query is watched.
-/// Throws StopError as QueryWatch says.
+/// Calls `work(first, count)` for all `rays`: piece by piece if the query is watched, otherwise
+/// once. Throws StopError after a stop request.
 template <class Work>
 void for_watched_pieces(std::size_t rays, const QueryWatch& watch, const Work& work)
 {
@@ -137,7 +137,7 @@ private:
     alignas(64) std::int32_t object_[chunk_rays];
 };
 
-/// Calls `work(rays, first)` for chunks of the rays, in arrays.
+/// Copies the rays into arrays, chunk by chunk, and calls `work(arrays, first)` for each chunk.
 template <class Real, class Work>
 void for_chunks(const RayStructs<Real>& rays, const QueryWatch& watch, const Work& work)
 {

@@ -43,15 +43,16 @@ struct RayScene<Real>::State {
             lights.push_back(light.type);
     }
 
-    /// Of a light that something may be in the way of, its number among those.
+    /// The index of a light among those that are not ambient, and so can be occluded. Throws
+    /// std::invalid_argument for other indices.
     [[nodiscard]] std::size_t place_of_light(std::size_t light) const;
 
-    /// Of objects that are there, each named once.
+    /// `moved` has objects of the scene, without duplicates.
     SceneUpdate update(const Scene& scene, const std::vector<std::int32_t>& moved);
 
     bounds::BoundedScene bounded;
     std::vector<LightType> lights;
-    std::vector<MovedShape> shapes;  ///< of the last update, kept for its memory
+    std::vector<MovedShape> shapes;  ///< of the last update, kept to reuse its memory
     std::unique_ptr<RayBackend<Real>> backend;
 };
 
@@ -231,7 +232,7 @@ void RayScene<Real>::bound_all_hits(const RaysView<Real>& rays, std::size_t ray,
     if (ray >= rays.count)
         throw std::invalid_argument("ray " + std::to_string(ray) + " of " +
                                     std::to_string(rays.count) + "; rays count from 0");
-    // All hits of one object after the other.
+    // Sort the hits by object.
     std::vector<std::size_t> order(hits.size());
     std::iota(order.begin(), order.end(), std::size_t{0});
     std::stable_sort(order.begin(), order.end(),

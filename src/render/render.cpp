@@ -14,7 +14,8 @@
 #include <type_traits>
 #include <vector>
 
-// Pictures as callers ask for them: one, one scene's again and again, some rows at a time.
+// The ways to render pictures: render() for one picture, Renderer for many pictures of one scene,
+// row_renderer() for some rows at a time.
 namespace packtrace {
 namespace {
 
@@ -28,7 +29,8 @@ constexpr bool has_packets = !std::is_same_v<Real, long double>;
         "use the scalar kernel for extended");
 }
 
-/// The reference knows nothing of lowering, which finds how much light there can be.
+/// The reference does not lower scenes. Only the bound of cut rays needs a lowered scene, which
+/// knows the largest possible light.
 template <class Real>
 Image<Real> render_scalar(const Scene& scene, const RenderOptions& options, CutRays* cut)
 {
@@ -46,7 +48,7 @@ Image<Real> render_scalar(const Scene& scene, const RenderOptions& options, CutR
     return image;
 }
 
-/// Rows by the scalar reference; light as render_scalar() has it.
+/// Renders rows with the scalar reference. Cut rays are bounded as in render_scalar().
 template <class Real>
 class ScalarRows {
 public:

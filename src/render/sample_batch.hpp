@@ -9,8 +9,8 @@
 
 namespace packtrace {
 
-/// Gathers the samples of single pixels of a tile and renders them as many at a time as a kernel
-/// takes: `render(samples, rgb)`. A pixel's samples are added up in the pattern's order.
+/// Gathers the samples of single pixels of a tile, and renders as many at a time as a kernel takes:
+/// `render(samples, rgb)`. A pixel's samples are added in the order of the pattern.
 template <class Real>
 class SampleBatch {
 public:
@@ -21,7 +21,7 @@ public:
     {
     }
 
-    /// The mean is in `pixel` after finish().
+    /// `pixel` has the mean of the samples after finish().
     void add_pixel(int column, int row, Real* pixel)
     {
         pixels_.push_back(pixel);

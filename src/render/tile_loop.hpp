@@ -14,8 +14,8 @@
 
 namespace packtrace {
 
-/// Calls `visit(number, x, y)` for the pixels of a tile; kernels number all there can be along a
-/// Z-order curve.
+/// Calls `visit(number, x, y)` for the pixels of a tile. Kernels number the pixels of a full tile
+/// along a Z-order curve.
 template <class Visit>
 void for_each_pixel(const Region& tile, const Visit& visit)
 {
@@ -28,8 +28,8 @@ void for_each_pixel(const Region& tile, const Visit& visit)
     }
 }
 
-/// How a picture is cut, or a region of it that begins where a tile does: into squares, row by row,
-/// whose edge is that of a tile or of several.
+/// Divides a picture into squares, row by row. Their edge is that of one tile or of several.
+/// Instead of a picture it may be a region that begins at a tile's corner.
 class TileGrid {
 public:
     explicit TileGrid(const Region& region, int edge = abi::tile_size)
@@ -42,7 +42,7 @@ public:
         return columns_ * pieces_along(region_.height);
     }
 
-    /// Pieces at the region's right and lower end may be smaller.
+    /// Pieces at the region's right and lower edges may be smaller.
     [[nodiscard]] Region operator[](int piece) const
     {
         const int x = piece % columns_ * edge_;
@@ -62,10 +62,10 @@ private:
     int columns_;
 };
 
-/// Hands out runs of pieces to threads, shorter ones towards the end, so that all end together
-/// (Polychronopoulos and Kuck, "Guided Self-Scheduling", 1987). A task a tile costs 3 % of the
-/// frames that take the least, and short runs from the start 3 % of those of two threads, which
-/// then write to the same pages.
+/// Distributes runs of pieces to threads. Runs get shorter towards the end, so that all threads end
+/// at about one time (Polychronopoulos and Kuck, "Guided Self-Scheduling", 1987). One task per tile
+/// costs 3 % of the shortest frames. Short runs from the start cost 3 % with two threads, because
+/// both then write to the same pages.
 class TileQueue {
 public:
     TileQueue(int count, int threads) : count_(count), shares_(8 * threads)
@@ -76,7 +76,7 @@ public:
         int begin;
         int end;
     };
-    /// Empty when there are no more.
+    /// Empty if no pieces are left.
     Run take()
     {
         int begin = next_.load(std::memory_order_relaxed);
@@ -93,8 +93,8 @@ private:
     std::atomic<int> next_{0};
 };
 
-/// Calls `work(piece)`, which returns abi::RayCounts, for each piece of the grid, from the threads
-/// of the arena the call runs in. The sum is that of all pieces. Throws StopError as `done` does.
+/// Calls `work(piece)`, which returns abi::RayCounts, for each piece of the grid, on the threads of
+/// the TBB arena of the caller. Returns the sum of all counts. Throws StopError as `done` does.
 template <class Work>
 [[nodiscard]] FrameCounts for_each_piece(const TileGrid& grid, Progress& done, const Work& work)
 {

@@ -20,7 +20,7 @@ Vec2 only_sample(const Scene& scene, const RenderOptions& options)
     return options.samples > 1 ? Vec2(0.5) : scene.camera.pixel_sample;
 }
 
-/// Without what the picture does not need, or with all there is.
+/// Prunes the scene. With force_general it is not pruned, and gets all features instead.
 LoweredScene fit(LoweredScene lowered, const RenderOptions& options)
 {
     if (!options.force_general)
@@ -31,7 +31,7 @@ LoweredScene fit(LoweredScene lowered, const RenderOptions& options)
     return lowered;
 }
 
-/// What the tiles of a frame share that are traced in registers.
+/// The data that the fused kernels compute once for all tiles of a frame.
 template <class Real>
 AlignedArray<std::byte> make_plan(const abi::FusedKernels<Real>* fused,
                                   const abi::SceneView<Real>& scene,
@@ -44,10 +44,10 @@ AlignedArray<std::byte> make_plan(const abi::FusedKernels<Real>* fused,
     return plan;
 }
 
-/// So many blocks a thread, that none works on alone for long at the end.
+/// Blocks per thread, so many that no thread works alone for long at the end of a frame.
 constexpr int blocks_of_a_thread = 16;
 
-/// How many tiles of a picture may be rendered together.
+/// The largest number of tiles that are rendered together.
 int tiles_together(const Scene& scene, bool sorts_mirrored)
 {
     const TileGrid picture({0, 0, scene.width, scene.height});
@@ -175,7 +175,8 @@ abi::RayCounts TileRenderer<Real>::render_once(const Canvas<Real>& canvas, const
                         observation);
 }
 
-// One sample of all pixels after the other, so that packets are as compact as with one sample.
+// Renders one sample of all pixels, then the next, so that packets are as coherent as with one
+// sample.
 template <class Real>
 abi::RayCounts TileRenderer<Real>::render_mean(const Canvas<Real>& canvas, const Region& piece,
                                                abi::Observation* observation) const

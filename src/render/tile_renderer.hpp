@@ -13,7 +13,7 @@
 
 namespace packtrace {
 
-/// Where tiles go: an image that holds a part of a picture.
+/// The output of tiles: an image that holds a part of a picture.
 template <class Real>
 struct Canvas {
     Image<Real>& image;
@@ -24,48 +24,49 @@ struct Canvas {
         : image(part), first_column(column), first_row(row)
     {
     }
-    /// By column and row of the picture.
+    /// `x` and `y` are column and row of the picture.
     [[nodiscard]] Real* pixel(int x, int y) const
     {
         return image.pixel(x - first_column, y - first_row);
     }
 };
 
-/// A scene and the kernels for it, a piece of a picture after the other. A piece begins where a
-/// tile does, and is at most block_edge() long and wide. Thread-safe.
+/// Renders a scene piece by piece. A piece begins at a tile's corner, and its sides are at most
+/// block_edge(). Thread-safe.
 template <class Real>
 class TileRenderer {
 public:
-    /// Of the options traversal, sampling and force_general count. What the picture does not need
-    /// of `lowered` is left out.
+    /// Uses the options for traversal, sampling and force_general. Prunes `lowered` unless
+    /// force_general is set.
     TileRenderer(const Scene& scene, LoweredScene lowered, const abi::KernelTable& table,
                  const RenderOptions& options);
     TileRenderer(const TileRenderer&) = delete;
     TileRenderer& operator=(const TileRenderer&) = delete;
 
-    /// The edge of pieces, in pixels, that threads render a region of the picture by: a tile's, or
-    /// one of several tiles whose mirrored rays are better traced together.
+    /// The edge of pieces, in pixels, for a region and a number of threads. It is the edge of a
+    /// tile, or of a block of tiles if it is faster to trace their mirrored rays together.
     [[nodiscard]] int block_edge(const Region& region, int threads) const;
 
-    /// Fills a piece with one sample a pixel: the scene's own, or of several the centre. Here and
-    /// below kernels of Features::probe record into `observation`, unless it is null.
+    /// Renders a piece with one sample per pixel: the scene's pixel sample, or the centre if the
+    /// options want several samples. Here and below, kernels with Features::probe record into
+    /// `observation`, unless it is null.
     abi::RayCounts render_once(const Canvas<Real>& canvas, const Region& piece,
                                abi::Observation* observation = nullptr) const;
 
-    /// Fills it with as many samples as the options say, none of them adaptive.
+    /// Renders a piece with all samples of the options in every pixel.
     abi::RayCounts render(const Canvas<Real>& canvas, const Region& piece,
                           abi::Observation* observation = nullptr) const;
 
-    /// `contrast` is that of the canvas. Gives the pixels of a tile where `contrast` says so what
-    /// render() gives them, bit for bit.
+    /// Renders the pixels of a tile that are marked in `contrast`, the map of the canvas. They
+    /// equal those of render(), bit for bit.
     abi::RayCounts refine(const Canvas<Real>& canvas, const ContrastMap<Real>& contrast,
                           const Region& tile, abi::Observation* observation = nullptr) const;
 
-    /// Counts camera rays that are about to be rendered. Once there are so many of them that
-    /// lights' own views of the scene pay, these are made, and used from then on.
+    /// Counts camera rays that are about to be traced. As soon as there are enough of them for
+    /// light buffers to save time, light buffers are built and used.
     void expect(double camera_rays) const;
 
-    /// Working memory of a thread.
+    /// Working memory of a thread, bytes.
     [[nodiscard]] std::size_t scratch_bytes() const
     {
         return scratch_bytes_;
@@ -83,7 +84,7 @@ private:
         std::ptrdiff_t row_stride;
     };
 
-    /// A scene without what the picture does not need.
+    /// A scene after fit(): pruned, or with all features.
     struct Fitted {
         LoweredScene scene;
     };
@@ -103,10 +104,10 @@ private:
     double rays_for_buffers_;
     mutable MadeWhenPaid<BufferedScene<Real>> buffered_;
     std::vector<Vec2> pattern_;
-    abi::CameraView<Real> once_;            // one sample a pixel
+    abi::CameraView<Real> once_;            // one sample per pixel
     abi::CameraView<Real> corner_;          // through the upper left corner of each pixel
-    const abi::FusedKernels<Real>* fused_;  // null where streams render the scene
-    AlignedArray<std::byte> plan_;          // of those
+    const abi::FusedKernels<Real>* fused_;  // null if the stream kernels render the scene
+    AlignedArray<std::byte> plan_;          // of the fused kernels
     abi::RayCounts (*render_tiles_)(const abi::TileJob<Real>* tiles, int count);
     bool sorts_mirrored_;
     std::size_t scratch_bytes_;

@@ -9,7 +9,7 @@
 namespace packtrace {
 namespace {
 
-// Viewport width and height at distance `camera.distance`.
+// The width and height of the viewport at distance `camera.distance`.
 Vec2 viewport_of(const Camera& camera, int width, int height)
 {
     if (!camera.fov)

@@ -7,8 +7,8 @@
 
 namespace packtrace {
 
-/// By object whether it casts a shadow; none where all do. A RayScene keeps that of the scene it
-/// was made of: its update() reads nothing of another scene but where objects are.
+/// Whether each object casts a shadow; empty if all do. A RayScene keeps the flags of the scene it
+/// was made of, because its update() reads only the shapes of another scene.
 [[nodiscard]] inline std::vector<bool> casting_objects(const Scene& scene)
 {
     std::vector<bool> casts;

@@ -12,22 +12,22 @@
 
 namespace packtrace {
 
-/// What a clipped quadric is across its own z axis, if it is an ellipse of one shape at all
-/// heights: (p - c)ᵀ Q (p - c) = w(z), c being on a straight line.
+/// The sections of a clipped quadric at constant z, in its own space, if they are ellipses of one
+/// shape: (p - c)ᵀ Q (p - c) = w(z), where c moves along a straight line.
 struct EllipticSections {
     Vec2 center;           ///< c at z = 0
-    Vec2 slope;            ///< by which c moves for z + 1
+    Vec2 slope;            ///< change of c per unit of z
     glm::dmat2 half_axes;  ///< M of Q⁻¹ = M Mᵀ: p is c + √w M u for some u of length 1
-    double widest;    ///< the largest w within the clip; below 0 nothing is left of the surface
-    double rounding;  ///< what `widest` may be off by
+    double widest;         ///< the largest w in the clip range; below 0 if no surface is left
+    double rounding;       ///< bound of the rounding error of `widest`
 };
 
-/// Nothing for a quadric without a clip, or with other sections than ellipses that are inside.
+/// Not set for a quadric without a clip, and for sections that are not ellipses around the inside.
 [[nodiscard]] inline std::optional<EllipticSections> elliptic_sections(const Quadric& quadric)
 {
     const auto& [A, B, C, D, E, F, G, H, I, J] = quadric.coefficients;
     const double determinant = A * B - 0.25 * D * D;
-    // What is nearly a parabola is off by too much where it ends.
+    // Sections that are almost parabolas have too large rounding errors at their ends.
     if (!quadric.z_range || !(A > 0.0) || !(B > 0.0) || !(determinant > 1e-6 * A * B))
         return std::nullopt;
     const glm::dmat2 inverse(B / determinant, -0.5 * D / determinant, -0.5 * D / determinant,
@@ -54,7 +54,7 @@ struct EllipticSections {
     const double along_axis = (std::abs(C) * height + std::abs(I)) * height + std::abs(J);
     const Vec2 off_axis = glm::abs(constant) + height * glm::abs(by_z);
     const Vec2 reach = glm::abs(sections.center) + height * glm::abs(sections.slope);
-    // The determinant's terms cancel, and with them the inverse's digits.
+    // The terms of the determinant cancel, and the inverse loses as many digits.
     const double cancelled = A * B / determinant;
     sections.rounding = 1e-15 * (along_axis + cancelled * glm::dot(off_axis, reach));
     return sections;

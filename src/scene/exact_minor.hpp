@@ -5,8 +5,8 @@
 
 namespace packtrace {
 
-/// The minor at an entry, with its sign. In double an ill-conditioned matrix's minors lose digits
-/// that no kernel can bring back.
+/// The minor of an entry, with its sign. In double the minors of an ill-conditioned matrix lose
+/// digits, and no kernel can recover them.
 [[nodiscard]] inline Quad exact_minor(const Mat3& m, int column, int row)
 {
     const int c1 = (column + 1) % 3;

@@ -14,8 +14,8 @@ namespace {
 
 using language::to_text;
 
-/// What all generated pictures share: 1024 x 1024 pixels through their middles, an angle of
-/// view of 45 degrees.
+/// The common part of all generated scenes: 1024 x 1024 pixels, samples at their centres, a field
+/// of view of 45 degrees.
 Scene empty_scene(const Vec3& eye, const Vec3& target, const Vec3& up)
 {
     Scene scene{.width = 1024, .height = 1024};
@@ -26,7 +26,7 @@ Scene empty_scene(const Vec3& eye, const Vec3& target, const Vec3& up)
     return scene;
 }
 
-/// A point light and a little ambient one, which add up to 1.
+/// A point light and a weak ambient light; their intensities add up to 1.
 std::vector<Light> lamp_at(const Vec3& position)
 {
     return {{LightType::ambient, Rgb(0.2), Vec3(0.0)}, {LightType::point, Rgb(0.8), position}};
@@ -41,7 +41,7 @@ void check_option(const std::string& name, double value, double low, double high
                                     to_text(high));
 }
 
-/// Throws unless it is finite and above 0.
+/// Throws std::invalid_argument unless `radius` is finite and above 0.
 void check_radius(double radius)
 {
     if (!(radius > 0.0 && std::isfinite(radius)))
@@ -60,7 +60,7 @@ Material shiny(const std::string& name, const Rgb& color, double reflective)
     return material;
 }
 
-/// The next sphere, named as the reader names those without a name.
+/// Appends a sphere with the name that the reader would give it.
 void add_sphere(Scene& scene, const Vec3& center, double radius, const Material& material)
 {
     Object& object = scene.objects.emplace_back();
@@ -69,8 +69,8 @@ void add_sphere(Scene& scene, const Vec3& center, double radius, const Material&
     object.material = material;
 }
 
-/// Number `counter` of the sequence of `seed`: the mixer of Steele, Lea, Flood, Fast Splittable
-/// Pseudorandom Number Generators, 2014, which needs no state.
+/// Number `counter` of the sequence of `seed`, by the mixer of Steele, Lea, Flood, Fast Splittable
+/// Pseudorandom Number Generators, 2014. It needs no state.
 std::uint64_t random_bits(std::uint64_t seed, std::uint64_t counter)
 {
     std::uint64_t bits = seed + (counter + 1) * 0x9E3779B97F4A7C15u;
@@ -86,12 +86,12 @@ double coordinate(std::uint64_t bits)
     return static_cast<double>(bits % steps) / static_cast<double>(steps);
 }
 
-constexpr double shrink = 1.0 / 3.0;  ///< of a child against its parent
+constexpr double shrink = 1.0 / 3.0;  ///< radius of a child / radius of its parent
 
 using Children = std::array<Vec3, 9>;
 
-/// Where the children of a sphere sit that grows along +z: six around its equator and three
-/// above them, neighbours 60 degrees apart, as in a close packing of balls.
+/// Directions from a sphere that grows along +z to its children: six around its equator and three
+/// above them. Neighbours are 60 degrees apart, as in a close packing of balls.
 Children child_directions()
 {
     constexpr double sixth = std::numbers::pi / 3.0;
@@ -109,11 +109,11 @@ Children child_directions()
     return directions;
 }
 
-/// The smallest turn that takes +z to the unit vector `to`.
+/// The rotation by the smallest angle that takes +z to the unit vector `to`.
 Mat3 turn_from_z(const Vec3& to)
 {
     const double toward = 1.0 + to.z;
-    // Straight back there is no smallest turn; half a turn about x is as good as any.
+    // For -z the axis is not unique. Take half a turn about x.
     if (toward < 1e-12)
         return {1, 0, 0, 0, -1, 0, 0, 0, -1};
     const double shear = -to.x * to.y / toward;
@@ -134,7 +134,7 @@ public:
     {
     }
 
-    /// A sphere that grows along the unit vector `axis`, and `depth` generations on it.
+    /// Adds a sphere that grows along the unit vector `axis`, and `depth` generations of children.
     void grow(const Vec3& center, const Vec3& axis, double radius, int depth)
     {
         add_sphere(scene_, center, radius, material_);

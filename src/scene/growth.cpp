@@ -5,12 +5,13 @@
 #include <cmath>
 #include <variant>
 
-// Colours that may grow beyond single precision where factors are above 1: each reflection and
-// refraction multiplies by them, and so does each object that a transparent shadow passes.
+// Finds scenes whose colours may grow beyond single precision, because factors are above 1. Each
+// reflection and refraction multiplies by a factor, and so does each object that transmits light in
+// a transparent shadow.
 namespace packtrace::language {
 namespace {
 
-/// Decades that a colour may have, well within single precision.
+/// The largest colour, as a power of ten. It is well within single precision.
 constexpr double most_decades = 36.0;
 
 double largest(const Rgb& color)
@@ -18,11 +19,11 @@ double largest(const Rgb& color)
     return std::max({color.r, color.g, color.b});
 }
 
-/// What a material multiplies light by.
+/// The factors by which a material multiplies light.
 struct Factors {
-    double bounced = 0.0;  ///< of what it mirrors and lets through, together
-    double shadow = 0.0;   ///< of light on its way to other objects
-    double local = 0.0;    ///< of light that it scatters itself
+    double bounced = 0.0;  ///< of mirrored and refracted light together
+    double shadow = 0.0;   ///< of light that it transmits to other objects
+    double local = 0.0;    ///< of local light
 };
 
 Factors factors_of(const ScratchMaterial&)

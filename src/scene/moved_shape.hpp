@@ -6,8 +6,8 @@
 
 namespace packtrace {
 
-/// An object that may have moved. Scenes are large, so that what most moved objects are, spheres
-/// without a transform, is copied here, to be read again and again.
+/// An object that may have moved. Most moved objects are spheres without a transform. They are
+/// copied here, because they are read several times and scenes are large.
 struct MovedShape {
     std::int32_t object = 0;
     bool plain = false;  ///< a sphere without a transform; others are looked up in the scene

@@ -18,7 +18,7 @@ std::string numbered(std::string_view kind, std::size_t number)
     return std::string(kind) + ' ' + std::to_string(number);
 }
 
-/// The number of "sphere 12" after the word; 0 for another name.
+/// The number in a name like "sphere 12"; 0 for other names.
 std::size_t number_after(std::string_view kind, std::string_view name)
 {
     if (!name.starts_with(kind) || name.size() < kind.size() + 2 || name[kind.size()] != ' ' ||
@@ -35,7 +35,7 @@ std::size_t kind_of(const Surface& surface)
     return static_cast<std::size_t>(&word_of(surface) - surface_words().data());
 }
 
-/// Whether two names may be the same; false is certain.
+/// Whether two names may be equal. False is certain.
 bool may_repeat(const Scene& scene)
 {
     std::vector<std::size_t> hashes;
@@ -84,7 +84,7 @@ std::string label_of(std::string_view kind, const std::optional<std::string>& ow
 
 std::string label_of(const Scene& scene, std::size_t object)
 {
-    // A surface without a value has no kind to be numbered by.
+    // A surface without a value has no kind, so all objects count.
     if (const Object& bare = scene.objects[object]; bare.surface.valueless_by_exception())
         return label_of("object", bare.name.empty() ? std::nullopt : std::optional(bare.name),
                         object + 1);

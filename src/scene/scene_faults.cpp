@@ -25,7 +25,7 @@ OwnerFault fault_at(std::string_view key, Fault fault)
     return fault ? OwnerFault({key, *std::move(fault)}) : std::nullopt;
 }
 
-/// A point of the object's own space that gets too far.
+/// The fault of a transform that moves a point of object space too far away.
 OwnerFault fault_of_point(const Mat4& transform, const Vec3& point)
 {
     const Vec3 place(transform * glm::dvec4(point, 1.0));
@@ -38,7 +38,8 @@ OwnerFault fault_of_point(const Mat4& transform, const Vec3& point)
     return std::nullopt;
 }
 
-/// How large the transform makes what is `size` in the object's own space, in a middling direction.
+/// The fault of a transform that scales `size`, a length in object space, too much. The scale is
+/// the geometric mean over all directions.
 OwnerFault fault_of_size(const Mat4& transform, double size)
 {
     const double scaled = std::cbrt(std::abs(glm::determinant(Mat3(transform)))) * size;
@@ -69,7 +70,7 @@ OwnerFault fault_of_place(const Mat4& transform, const Surface& surface)
 
 Illumination illumination_of(const Material& material)
 {
-    // The alternatives stand in the order of the enumeration.
+    // The alternatives have the order of the enumeration.
     return static_cast<Illumination>(material.model.index());
 }
 
@@ -82,7 +83,7 @@ Fault fault_of_model(const Material& material, Illumination illumination)
            std::string(word_of(illumination)) + "; give it the scene's, see make_material()";
 }
 
-/// The axes count for a checker alone.
+/// Whether the plane's axes differ from plane_axes(). Only a checker uses them.
 bool has_own_axes(const Plane& plane)
 {
     Plane own = plane;
@@ -127,7 +128,7 @@ OwnerFault fault_of_material(const Material& material)
     return fault;
 }
 
-/// Of its names and its material.
+/// The first fault of an object's names and material.
 OwnerFault fault_of_looks(const Object& object, Illumination illumination)
 {
     OwnerFault fault = fault_of_names(object);
@@ -147,7 +148,8 @@ OwnerFault fault_of_looks(const Object& object, Illumination illumination)
     return fault;
 }
 
-/// A fault of a material is that of its block, where its first object has it.
+/// The subject of an object's fault. A fault of a named material belongs to the material's block if
+/// the first object with that name has it.
 std::string subject_of(const Scene& scene, std::size_t object, const KeyFault& fault)
 {
     const Material& material = scene.objects[object].material;
@@ -164,7 +166,7 @@ template <class IsFaulty>
 std::size_t first_faulty(std::size_t count, const IsFaulty& is_faulty)
 {
     constexpr std::size_t task_objects = 4096;
-    // Whichever thread comes first.
+    // The lowest index wins, so the result does not depend on the order of threads.
     std::atomic<std::size_t> first = count;
     const auto check_part = [&](const tbb::blocked_range<std::size_t>& part) {
         for (std::size_t i = part.begin(); i < part.end() && i < first; ++i) {
@@ -179,7 +181,7 @@ std::size_t first_faulty(std::size_t count, const IsFaulty& is_faulty)
     return first;
 }
 
-/// Whether an object's material has no fault if the other's has none. False is always right.
+/// Whether an object's material has no fault if that of the other has none. False may be wrong.
 bool shares_material(const Object& object, const Object& other)
 {
     return !object.material.checker && object.material == other.material;

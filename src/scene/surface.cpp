@@ -13,15 +13,15 @@
 #include <cstdint>
 #include <limits>
 
-// The axes of a plane, and the plane of a polygon.
+// The axes of planes, and the planes of polygons.
 namespace packtrace {
 namespace {
 
-/// How far a corner may be off the plane, as a share of the polygon's size: what seven written
-/// digits leave.
+/// The largest distance of a corner from the plane, as a share of the polygon's size. Corners
+/// written with seven digits are within it.
 constexpr double flatness = 1e-6;
 
-/// The least area of a polygon, as a share of its size's square.
+/// The smallest area of a polygon, as a share of its squared size.
 constexpr double least_area = 1e-12;
 
 using Contour = std::vector<Vec3>;
@@ -31,8 +31,8 @@ struct Components {
     Real of[3];
 };
 
-/// The sum of the edges' cross products, twice the area long. From the first corner on, so that a
-/// far polygon keeps its digits.
+/// The sum of the edges' cross products, whose length is twice the area. Corners are relative to
+/// the first one, so that a polygon far from the origin loses no digits.
 template <class Real>
 Components<Real> newell_sum(const Contour& contour)
 {
@@ -56,7 +56,8 @@ Vec3 rounded(const Components<Real>& v)
             static_cast<double>(v.of[2])};
 }
 
-/// The products of the edges' lengths, of which that sum is what is left.
+/// The sum of the products of the edges' lengths, an upper bound of newell_sum(). Their ratio tells
+/// how many digits cancel.
 double newell_size(const Contour& contour)
 {
     double size = 0.0;
@@ -65,10 +66,10 @@ double newell_size(const Contour& contour)
     return size;
 }
 
-/// Sums in double of which this share of their terms is left have digits enough.
+/// A sum in double has enough digits if it is more than this share of the sum of its terms' sizes.
 constexpr double certain = 1.0 / 64.0;
 
-/// newell_sum() in double, or, of slivers and of what crosses itself, in more digits.
+/// newell_sum() in double; in more digits for slivers and for contours that cross themselves.
 Vec3 newell_normal(const Contour& contour)
 {
     const Vec3 sum = rounded(newell_sum<double>(contour));
@@ -76,7 +77,7 @@ Vec3 newell_normal(const Contour& contour)
                                                              : rounded(newell_sum<Quad>(contour));
 }
 
-/// placed_normal() where double loses digits of it.
+/// placed_normal() for the cases in which double loses digits.
 Vec3 exactly_placed_normal(const Polygon& polygon, const Mat3& linear)
 {
     const auto own = newell_sum<Quad>(polygon.contours[0]);
@@ -134,7 +135,7 @@ void plane_axes(Plane& plane)
     plane.u = glm::normalize(first - plane.normal * glm::dot(plane.normal, first));
     plane.v = glm::cross(plane.u, plane.normal);
 
-    // The second axis points the way its world axis does.
+    // The second axis must point to the side of its world axis.
     const int second = major == 2 ? 1 : 2;
     if (plane.v[second] < 0.0)
         plane.v = -plane.v;
@@ -152,7 +153,7 @@ Vec3 polygon_normal(const Polygon& polygon)
 Vec3 placed_normal(const Polygon& polygon, const Mat3& linear)
 {
     const Vec3 own = polygon_normal(polygon);
-    // Its inverse transpose but for a factor.
+    // The inverse transpose of `linear`, up to a factor.
     const Mat3 minors(glm::cross(linear[1], linear[2]), glm::cross(linear[2], linear[0]),
                       glm::cross(linear[0], linear[1]));
     const Vec3 length(glm::length(linear[0]), glm::length(linear[1]), glm::length(linear[2]));

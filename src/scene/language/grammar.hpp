@@ -2,12 +2,12 @@
 
 #include <tao/pegtl.hpp>
 
-/// The scene language's grammar; what the keys mean is not known here.
+/// The grammar of the scene language. It does not depend on the meaning of keys.
 namespace packtrace::language::grammar {
 
 using namespace tao::pegtl;
 
-/// Blocks stand at most this deep: scene, animation, key.
+/// The deepest nesting of blocks: scene, animation, key.
 inline constexpr int deepest_block = 3;
 
 struct comment : seq<one<'#'>, star<not_one<'\n'>>> {};
@@ -16,7 +16,7 @@ struct gap : star<sor<plus<one<' ', '\t', '\r', '\n'>>, comment>> {};
 struct word_char : sor<alnum, one<'_', '.', '+', '-'>> {};
 struct word : plus<word_char> {};
 
-// 640 x 480; the blanks may be missing, so its numbers have to be known from a word's letters.
+// 640 x 480. The blanks may be missing, so the grammar needs numbers to find the x in a word.
 struct sign : opt<one<'+', '-'>> {};
 struct mantissa : sor<seq<plus<digit>, opt<one<'.'>, star<digit>>>, seq<one<'.'>, plus<digit>>> {};
 struct exponent : seq<one<'e', 'E'>, sign, plus<digit>> {};
@@ -36,7 +36,7 @@ struct quoted_text : star<not_one<'"', '\n'>> {};
 struct closing_quote : one<'"'> {};
 struct quoted_value : if_must<one<'"'>, quoted_text, closing_quote> {};
 
-// A word before '=' or '{' is the next entry's key: the value before it was forgotten.
+// A word before '=' or '{' is the next entry's key, and the value before it is missing.
 struct next_entry : seq<gap, one<'=', '{'>> {};
 struct word_value : seq<word, not_at<next_entry>> {};
 
@@ -61,7 +61,7 @@ struct block_name : word {};
 struct name_text : quoted_text {};
 struct quoted_name : seq<one<'"'>, name_text, one<'"'>> {};
 struct any_name : sor<block_name, quoted_name> {};
-// Looked at first, so that an error is reported at the word after the key.
+// Looks ahead, so that an error is reported at the word after the key.
 template <int depth>
 struct named_block : seq<at<any_name, gap, open_brace>, any_name, gap, block<depth>> {
 };

@@ -9,11 +9,11 @@
 namespace packtrace::language {
 namespace {
 
-/// The number of the range that `word` spells, the same in every locale.
+/// Reads `word` as a number of the range, independently of the locale.
 double number_in(const Field& field, const Word& word, const Range& range)
 {
     std::string_view digits = word.text;
-    // from_chars takes a minus sign only.
+    // from_chars does not accept a plus sign.
     if (digits.size() > 1 && digits[0] == '+' && digits[1] != '-')
         digits.remove_prefix(1);
     double number = 0.0;

@@ -29,7 +29,7 @@ std::string head(const std::vector<std::string>& titles)
     return line(titles) + rule + '\n';
 }
 
-/// What a key says in each of these owners that say nothing: "`4` for `sketch`, else `3`".
+/// The default of a key for each of these owners: "`4` for `sketch`, else `3`".
 template <class Owner>
 std::string default_of(const Row<Owner>& row, const std::map<std::string_view, Owner>& owners)
 {
@@ -38,7 +38,7 @@ std::string default_of(const Row<Owner>& row, const std::map<std::string_view, O
     std::map<std::string, Keys> names;
     for (const auto& [name, owner] : owners)
         names[row.text(owner)].push_back(name);
-    // Where each has its own, as with the key that tells them apart.
+    // If each owner has a different default, as for the key that distinguishes them.
     if (owners.size() > 1 && names.size() == owners.size())
         return code(row.text(Owner{}));
     auto usual = names.begin();

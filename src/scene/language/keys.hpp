@@ -6,7 +6,7 @@
 // The scene language's keys.
 namespace packtrace::language {
 
-/// The camera's block; its pose is given in one of two ways.
+/// The keys of the camera's block. Its pose is either a rotation or look_at and up.
 struct CameraKeys {
     Vec3 position{0.0};
     std::optional<Vec3> look_at;
@@ -15,14 +15,14 @@ struct CameraKeys {
     std::optional<double> fov;
 };
 
-/// With the pose as a rotation.
+/// The keys of a camera, with its pose as a rotation.
 [[nodiscard]] inline CameraKeys keys_of_camera(const Camera& camera)
 {
     return {
         .position = camera.position, .look_at = {}, .rotation = camera.rotation, .fov = camera.fov};
 }
 
-/// The keys of every object besides its surface's and its material's.
+/// The keys of every object, besides those of its surface and its material.
 struct ObjectKeys {
     std::optional<std::string> name;
     std::optional<std::string> material;
@@ -32,7 +32,7 @@ struct ObjectKeys {
 
 inline constexpr std::string_view unit_sphere = "(1, 1, 1, 0, 0, 0, 0, 0, 0, -1)";
 
-/// A key of the scene itself that belongs to its camera.
+/// Access to a member of the camera, for keys of the scene itself.
 template <class Member>
 auto of_camera(Member Camera::*member)
 {
@@ -65,7 +65,7 @@ inline Row<Scene> image_size_row()
                 }};
 }
 
-/// The keys of note 000 and of note 002, which differ in the name of what goes through only.
+/// The keys of note 000 and of note 002. They differ only in the name of the transmitted share.
 template <class Model>
 Rows<Model> note_rows(std::string_view transmitted, Rgb Model::*member)
 {
@@ -145,7 +145,7 @@ inline const Rows<Plane> rows<Plane>{
     row("normal", unit_direction(), &Plane::normal, "").needed("(0, 1, 0)"),
 };
 
-/// Whether the coefficients of a quadric are those that its kind has.
+/// Whether the coefficients of a quadric are those of its kind.
 [[nodiscard]] inline bool has_own_coefficients(const Quadric& quadric)
 {
     const QuadricKindInfo* const kind = find_quadric_kind(quadric.kind);
@@ -175,7 +175,7 @@ inline const Rows<Quadric> rows<Quadric>{
             [](const Quadric&) { return false; }),
 };
 
-/// Each time it stands there it adds a contour.
+/// Each occurrence of this key adds a contour.
 inline Row<Polygon> vertices_row()
 {
     const Type<std::vector<Vec3>> contour = points();
@@ -313,14 +313,14 @@ inline const Rows<CameraKey> rows<CameraKey>{
     row("up", direction(), &CameraKey::up, "the picture's upper side"),
 };
 
-/// The scene that nothing is said of, under this illumination.
+/// The scene of an empty file, under this illumination.
 [[nodiscard]] inline Scene default_scene(Illumination illumination)
 {
     Scene scene{.illumination = illumination};
     // Note 001 samples its own integer canvas points.
     if (illumination != Illumination::scratch)
         scene.camera.pixel_sample = {0.5, 0.5};
-    // Note 000 goes on while depth <= 5, the camera ray being the first.
+    // Note 000 continues while depth <= 5, where the camera ray has depth 1.
     if (illumination == Illumination::sketch)
         scene.max_depth = 4;
     return scene;
@@ -349,11 +349,11 @@ inline const Rows<CameraKey> rows<CameraKey>{
     return material;
 }
 
-/// Calls `visit` with each part of a material that has rows, in their order.
+/// Calls `visit` with each part of a material that has rows, in the order of the keys.
 template <class SomeMaterial, class Visit>
 void visit_parts(SomeMaterial& material, const Visit& visit)
 {
-    // The general model knows no colour.
+    // The general model has no colour.
     if (!std::holds_alternative<GeneralMaterial>(material.model))
         visit(material);
     std::visit(visit, material.model);

@@ -10,12 +10,12 @@
 #include <cmath>
 #include <limits>
 
-// Keys whose values are matrices: an object's transforms and the camera's rotation.
+// The keys with matrices: an object's transforms and the camera's rotation.
 namespace packtrace::language {
 namespace {
 
-/// Least volume of the parallelepiped that a matrix's unit columns or rows span. Rounding
-/// leaves around 1e-16 of a flat one.
+/// The smallest volume of the parallelepiped spanned by a matrix's normalised columns or rows. For
+/// a flat matrix the volume is about 1e-16, because of rounding.
 constexpr double flattest = 1e-12;
 
 double spanned_volume(const Mat3& m)
@@ -26,7 +26,8 @@ double spanned_volume(const Mat3& m)
 
 bool is_singular(const Mat3& linear)
 {
-    // A strong but honest scale along one axis looks flat by its columns or by its rows only.
+    // A valid matrix with a strong scale along one axis looks flat by its columns or by its rows,
+    // but not by both.
     return spanned_volume(linear) < flattest && spanned_volume(glm::transpose(linear)) < flattest;
 }
 
@@ -35,7 +36,7 @@ struct SineCosine {
     double cosine;
 };
 
-/// Exact for whole quarter turns, which a round trip through radians is not.
+/// Exact for multiples of a quarter turn. The detour through radians would not be.
 SineCosine sine_cosine(double degrees)
 {
     int quarters = 0;
@@ -113,7 +114,7 @@ Mat4 read_matrix(const Field& field)
     return matrix;
 }
 
-/// The twelve numbers of an affine map, row by row, as they are written.
+/// The twelve numbers of an affine map, row by row, as in a scene file.
 std::array<double, 12> numbers_of(const Mat4& matrix)
 {
     std::array<double, 12> numbers{};
@@ -152,14 +153,14 @@ Row<Mat4> step(std::string_view key, std::string_view takes, Mat4 (*read)(const 
             .read = [read](const Field& field,
                            Mat4& transform) { apply(transform, read(field), field); },
             .write = append_rows<4, Mat4>,
-            // All that is known of a transform is its matrix.
+            // Only the matrix of a transform is stored, so only this key is written.
             .is_set = [key](const Mat4& m) { return key == "matrix" && m != Mat4(1.0); },
             .check = {},
             .repeatable = true};
 }
 
-/// Numbers of seven digits stay as they are; of four digits they are taken for the rotation that
-/// they were rounded from.
+/// Matrices written with seven digits are used unchanged. Matrices written with four digits are
+/// replaced by the rotation that they were rounded from.
 constexpr double taken_as_given = 1e-6;
 constexpr double taken_for_rotation = 1e-3;
 
@@ -176,8 +177,8 @@ double distance_from_rotation(const Mat3& m)
     return glm::determinant(m) > 0.0 ? distance : std::numeric_limits<double>::infinity();
 }
 
-/// The nearest rotation, by the Newton iteration for the polar decomposition (Higham, "Computing
-/// the Polar Decomposition", 1986), which squares the distance with each step.
+/// The nearest rotation, by Newton's iteration for the polar decomposition (Higham, "Computing the
+/// Polar Decomposition", 1986). Each step squares the distance.
 Mat3 nearest_rotation(Mat3 m)
 {
     constexpr int steps = 5;

@@ -8,50 +8,51 @@
 #include <string>
 #include <string_view>
 
-// How large and how small the numbers of a scene may be, so that single precision can work with
-// them (docs/scene.md, Ranges; tests/test_validate.cpp looks for NaN at their ends).
+// The ranges of numbers in scenes, so that single precision can represent them and their products
+// (docs/scene.md, Ranges; tests/test_validate.cpp searches for NaN at the ends of the ranges).
 namespace packtrace {
 
-/// The largest size of a coordinate, a length or any other number. A ray that grazes a plane finds
-/// it some 1e7 times as far away, and single precision holds the square of that.
+/// The largest magnitude of a coordinate, a length or any other number. A ray that grazes a plane
+/// hits it some 1e7 times as far away, and single precision can represent the square of that
+/// distance.
 inline constexpr double largest_number = 1e13;
 
-/// The smallest size of a length.
+/// The smallest length.
 inline constexpr double smallest_length = 1e-15;
 
-/// Of a factor or an intensity. Products of three are far within single precision.
+/// The largest factor or intensity. A product of three of them is far within single precision.
 inline constexpr double largest_factor = 1e9;
 
-/// Of an exponent, and of an index of refraction and its inverse. Refraction leaves the length of a
-/// direction off by some roundoffs times the square of that index, and highlights are a power of
-/// it.
+/// The largest exponent, and the largest index of refraction and inverse of one. Refraction causes
+/// a relative error of some roundoffs times the squared index in the length of a direction, and a
+/// highlight is a power of that length.
 inline constexpr double largest_exponent = 1e4;
 inline constexpr double largest_ior = 10.0;
 
 }  // namespace packtrace
 
-// The numbers that keys take, and how they are written.
+// The numbers that keys take, and their text.
 namespace packtrace::language {
 
-/// What is wrong with a value, in words that name its key; nothing where it is right.
+/// What is wrong with a value, as a text that names its key; not set for a valid value.
 using Fault = std::optional<std::string>;
 
-/// The numbers that a key takes; both ends belong to the range unless it is `open`.
+/// The numbers that a key takes. Both ends belong to the range unless it is `open`.
 struct Range {
     double low = -std::numeric_limits<double>::max();
     double high = std::numeric_limits<double>::max();
-    double smallest = 0.0;            ///< in size, of numbers other than 0
-    double largest = largest_number;  ///< in size
+    double smallest = 0.0;            ///< smallest magnitude of numbers other than 0
+    double largest = largest_number;  ///< largest magnitude
     bool open = false;
     bool whole = false;
     std::string_view noun = "number";
     std::string_view part{};    ///< for messages: "a side of "
-    std::string_view unit{};    ///< likewise: " pixels"
-    std::string_view except{};  ///< "-1 for no highlight": a number outside that is taken too
+    std::string_view unit{};    ///< for messages: " pixels"
+    std::string_view except{};  ///< "-1 for no highlight": a number outside the range, also valid
 
-    /// Whether the key means anything with the number, however large or small.
+    /// Whether the number has a meaning for the key. Its magnitude is not checked.
     [[nodiscard]] bool contains(double number) const;
-    /// Whether single precision can work with it.
+    /// Whether the magnitude is suitable for single precision.
     [[nodiscard]] bool can_hold(double number) const;
     /// "above 0", "of 0 or more", "from 0 to 1".
     [[nodiscard]] std::string text() const;
@@ -65,17 +66,17 @@ inline constexpr Range any_exponent{.low = 0.0, .largest = largest_exponent};
 inline constexpr Range any_factor{.low = 0.0, .largest = largest_factor};
 inline constexpr Range share{.low = 0.0, .high = 1.0};
 
-/// What is wrong with a number under this key.
+/// The fault of a number for this key.
 [[nodiscard]] Fault fault_of(std::string_view key, double number, const Range& range);
-/// The first fault of several.
+/// The first fault of several numbers.
 [[nodiscard]] Fault fault_of(std::string_view key, std::span<const double> numbers,
                              const Range& range);
 [[nodiscard]] Fault fault_of(std::string_view key, const Vec3& vector, const Range& range);
 
-/// How numbers are written, for messages.
+/// The syntax of numbers, for messages.
 inline constexpr const char* number_form = "write it like 2, -0.5 or 1e3";
 
-/// The number in the shortest form that reads back as the same.
+/// Appends the number in the shortest form that reads back as the same number.
 void append(std::string& out, double number);
 /// (a, b, …)
 void append(std::string& out, std::span<const double> numbers);

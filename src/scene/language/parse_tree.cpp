@@ -15,12 +15,12 @@
 namespace packtrace::language {
 namespace {
 
-// A tree takes far more memory than its text. These bound it for a text that is no scene: no
-// key takes as many numbers, and no scene of the largest size has as many keys.
+// A syntax tree takes far more memory than its text. These limits bound it for text that is not a
+// scene: no key takes as many numbers.
 constexpr std::size_t most_items = most_points;
 constexpr std::size_t most_numbers = 64;
 
-/// Grows the syntax tree while the grammar matches; its calls follow the text from left to right.
+/// Builds the syntax tree while the grammar matches. Calls come in the order of the text.
 class TreeBuilder {
 public:
     explicit TreeBuilder(const Source& source) : source_(source), open_(1)
@@ -74,7 +74,7 @@ public:
         add_part(first);
     }
 
-    /// Another part of the last item, which is a tuple or size.
+    /// Adds a part to the last item, which is a tuple or size.
     void add_part(Word part)
     {
         std::vector<Word>& parts = open_.back().value.back().parts;
@@ -92,7 +92,7 @@ public:
         return open_.back().key.text;
     }
 
-    /// Where the innermost open block's brace stands.
+    /// The position of the innermost open block's brace.
     [[nodiscard]] Position open_brace() const
     {
         return braces_.back();
@@ -112,7 +112,7 @@ private:
     }
 
     const Source& source_;
-    std::vector<Entry> open_;  ///< the file, then what is being read in it, outermost first
+    std::vector<Entry> open_;  ///< the file and the entries being read, outermost first
     std::vector<Position> braces_;
     std::size_t entries_ = 0;  ///< in the file so far
 };
@@ -124,7 +124,7 @@ Word word_at(const Input& in)
     return {Position::of(at.line, at.column), std::string_view(in.begin(), in.size())};
 }
 
-/// Calls the builder's `step` with the text that a rule has matched.
+/// Calls the builder's `step` with the text that a rule matched.
 template <auto step>
 struct Call {
     template <class Input>
@@ -134,7 +134,7 @@ struct Call {
     }
 };
 
-/// The same for the text between quotes, whose place is that of the first quote.
+/// Calls the builder's `step` with text in quotes. Its position is that of the first quote.
 template <auto step>
 struct CallQuoted {
     template <class Input>
@@ -187,8 +187,8 @@ template <>
 struct Action<grammar::size_second> : Call<&TreeBuilder::add_part> {
 };
 
-/// What a message says of a rule that must match and does not: `key` is quoted, `found` is what
-/// stands there instead.
+/// Makes the message for a rule that must match and does not. `key` is quoted, `found` is the text
+/// found instead.
 using Complaint = std::string (*)(const std::string& key, const std::string& found);
 
 std::string expected_number(const std::string&, const std::string& found)
@@ -236,12 +236,12 @@ constexpr Complaint complaint<grammar::end_of_file> = expected_entry;
 
 bool is_word_byte(char c)
 {
-    // Bytes from 0x80 on belong to one character with their neighbours.
+    // Bytes from 0x80 on are parts of one character.
     return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_' || c == '.' || c == '+' ||
            c == '-' || static_cast<unsigned char>(c) >= 0x80u;
 }
 
-/// The first word or character of what was found instead.
+/// Describes the first word or character of the text.
 std::string name_found(std::string_view rest)
 {
     if (rest.empty())
@@ -253,7 +253,7 @@ std::string name_found(std::string_view rest)
         rest.substr(0, std::max<std::size_t>(1, static_cast<std::size_t>(end - rest.begin()))));
 }
 
-/// Turns the failure of a rule that must match into our own message.
+/// Reports a failed rule with our own message.
 template <class Rule>
 struct Control : tao::pegtl::normal<Rule> {
     template <class Input>
@@ -261,7 +261,7 @@ struct Control : tao::pegtl::normal<Rule> {
     {
         const std::string key = quote(builder.current_key());
         const std::string_view rest(in.current(), in.size());
-        // The place to mend is the brace without a partner, not the file's end.
+        // The error is at the brace without a partner, not at the file's end.
         if (std::is_same_v<Rule, grammar::close_brace> && rest.empty())
             fail(builder.source(), builder.open_brace(),
                  "the block " + key + " has no closing brace; end it with '}'");

@@ -17,8 +17,8 @@ bool is_continuation(std::string_view text, std::size_t i)
     return i < text.size() && (static_cast<unsigned char>(text[i]) & 0xC0u) == 0x80u;
 }
 
-/// Characters of several bytes that nobody sees in a message: controls, spaces such as the no-break
-/// space, marks of byte order and direction.
+/// Characters of several bytes that are invisible in a message: control characters, spaces such as
+/// the no-break space, marks of byte order and direction.
 bool is_invisible(std::string_view letter)
 {
     const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(letter[i]); };
@@ -31,8 +31,8 @@ bool is_invisible(std::string_view letter)
     return general || letter == "\xE3\x80\x80" || letter == "\xEF\xBB\xBF";
 }
 
-/// Bytes of the printable character that `text` starts with, 0 when it starts with none.
-/// Over-long forms and surrogates pass: they are no danger to a terminal.
+/// The number of bytes of the printable character at the start of `text`; 0 if there is none.
+/// Over-long forms and surrogates are accepted, because they do no harm to a terminal.
 std::size_t printable_length(std::string_view text)
 {
     const auto first = static_cast<unsigned char>(text[0]);
@@ -97,7 +97,7 @@ std::string quote(std::string_view text)
     std::size_t end = text.size();
     if (end > longest_quote) {
         end = longest_quote;
-        // Not in the middle of a character.
+        // Do not cut inside a character.
         while (end > 0 && is_continuation(text, end))
             --end;
     }
@@ -107,7 +107,7 @@ std::string quote(std::string_view text)
 std::string_view nearest_word(std::string_view word, std::span<const std::string_view> known)
 {
     std::string_view nearest;
-    // A word of two letters is two slips away from any other.
+    // A limit below the length, because two edits turn a word of two letters into any other.
     std::size_t limit = std::min(largest_slip + 1, word.size());
     for (const std::string_view candidate : known) {
         if (word.size() > candidate.size() + largest_slip)

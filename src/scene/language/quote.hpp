@@ -5,24 +5,24 @@
 #include <string_view>
 #include <vector>
 
-// How messages show what a user wrote, and what may have been meant.
+// How messages quote the user's text, and which word they suggest instead.
 namespace packtrace::language {
 
-/// `text` fit for one line of a terminal: control characters, characters that nobody sees and bytes
+/// Makes `text` safe for one line of a terminal: control characters, invisible characters and bytes
 /// that are not UTF-8 become \xNN.
 [[nodiscard]] std::string escape(std::string_view text);
 
-/// `text` in single quotes for a message: escaped, and cut after a few dozen bytes.
+/// `text` in single quotes for a message. It is escaped, and truncated after a few dozen bytes.
 [[nodiscard]] std::string quote(std::string_view text);
 
-/// The word of `known` that `word` is most likely a slip of: at most two letters changed, put
-/// in, left out or swapped with their neighbour. Empty when there is none.
+/// The word of `known` that was probably meant by `word`: at most two letters are changed,
+/// inserted, missing or swapped with their neighbour. Empty if there is none.
 [[nodiscard]] std::string_view nearest_word(std::string_view word,
                                             std::span<const std::string_view> known);
 [[nodiscard]] std::string_view nearest_word(std::string_view word,
                                             const std::vector<std::string>& known);
 
-/// "did you mean 'radius'?", or "use one of: a, b, c" when nothing is near.
+/// "did you mean 'radius'?", or "use one of: a, b, c" if no word is near.
 [[nodiscard]] std::string suggest(std::string_view word, std::span<const std::string_view> known);
 
 /// "a, b, c".

@@ -67,7 +67,7 @@ public:
         return object;
     }
 
-    /// Reads the materials that no object has used, for their faults.
+    /// Reads the materials that no object uses, to find their faults.
     void read_unused_materials()
     {
         for (auto& [name, material] : materials_)
@@ -86,7 +86,7 @@ private:
         return result;
     }
 
-    /// Throws at a key that belongs to a material, but of another model.
+    /// Throws SceneError at a key that belongs to the material of another model.
     void refuse_foreign_keys(const Field& field) const
     {
         for (const Entry& entry : field.entry.entries)
@@ -97,7 +97,7 @@ private:
                          ", or another illumination");
     }
 
-    /// Of a named block, which is read when it is first used, or last.
+    /// A named material. Its block is read at its first use; without a use, at the end.
     struct NamedMaterial {
         Field field;
         std::optional<Material> material{};
@@ -134,7 +134,7 @@ private:
         return *named.material;
     }
 
-    /// The keys beside a named material count instead of its own.
+    /// Keys of the object override those of its named material.
     void read_material(const Block& block, const ObjectKeys& own, Object& object)
     {
         Material& material = object.material;

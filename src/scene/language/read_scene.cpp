@@ -9,12 +9,12 @@
 #include <algorithm>
 #include <stdexcept>
 
-// The steps from the blocks of the syntax tree to a scene. Each throws SceneError at the place that
-// is wrong.
+// Converts the blocks of the syntax tree to a scene. All functions throw SceneError at the position
+// of the error.
 namespace packtrace::language {
 namespace {
 
-/// `subject` is what messages about values call the block: "light 2".
+/// `subject` names the block in messages about values: "light 2".
 template <class Owner>
 Owner read_block(const Field& field, std::string_view title, std::string_view subject)
 {
@@ -25,7 +25,7 @@ Owner read_block(const Field& field, std::string_view title, std::string_view su
     return owner;
 }
 
-/// Throws at the key look_at when the view direction is zero or along `up`.
+/// Throws SceneError at the key look_at if the view direction is zero or along `up`.
 Mat3 view_rotation(const Field& field, const CameraKeys& keys)
 {
     try {
@@ -55,7 +55,7 @@ Orbit read_orbit(const Field& field, const Camera& camera)
     return orbit;
 }
 
-/// The next key of an animation, which has `earlier` ones.
+/// Reads the next key of an animation, after the keys of `earlier`.
 CameraKey read_key(const Field& field, const Animation& earlier)
 {
     const std::string subject = "key " + std::to_string(earlier.keys.size() + 1);
@@ -64,7 +64,7 @@ CameraKey read_key(const Field& field, const Animation& earlier)
     block.set_subject(subject);
     const int last = earlier.keys.empty() ? -1 : earlier.keys.back().frame;
     if (const OwnerFault fault = fault_of_key(key, earlier.frames, last)) {
-        // The frame is a number, which has a place of its own.
+        // A fault of the frame is reported at its number.
         if (fault->key == "frame")
             block.find("frame")->refuse(block.find("frame")->entry.value[0].at, fault->message);
         refuse(block, *fault);
@@ -98,7 +98,7 @@ void read_lights(const Block& file, Scene& scene)
                 field, "light", "light " + std::to_string(scene.lights.size() + 1)));
 }
 
-/// Throws for colours that may grow too far.
+/// Throws SceneError if colours may grow too much.
 void check_growth(const Block& file, const Scene& scene)
 {
     if (const auto fault = fault_of_growth(scene)) {
@@ -107,7 +107,7 @@ void check_growth(const Block& file, const Scene& scene)
     }
 }
 
-/// Reports and messages tell objects apart by their names.
+/// Warns of duplicate names, because reports and messages identify objects by name.
 void warn_of_duplicate_name(const Block& file, const Scene& scene)
 {
     const auto repeated = find_duplicate_name(scene);
@@ -132,7 +132,7 @@ bool is_clipped_away(const Object& object)
     return sections && sections->widest < 0.0;
 }
 
-/// Of the first object of which there is nothing to see, and how many more there are.
+/// Warns of the first object that is clipped away, and says how many more there are.
 void warn_of_empty_clips(const Block& file, const Scene& scene)
 {
     const auto& objects = scene.objects;

@@ -12,11 +12,12 @@
 #include <utility>
 #include <vector>
 
-// The scene language, a row for each key. The reader, the writer, the suggestions in messages and
-// the tables of docs/scene.md all come from the rows.
+// The scene language, one row per key. The reader, the writer, the suggestions in messages and the
+// tables of docs/scene.md are all made from the rows.
 namespace packtrace::language {
 
-/// A key of a block, and what it sets in `Owner`, whose own value is the default.
+/// A key of a block, and the part of `Owner` that it sets. A default-constructed `Owner` has the
+/// default.
 template <class Owner>
 struct Row {
     std::string_view key;
@@ -25,16 +26,17 @@ struct Row {
     std::function<void(const Field&, Owner&)> read;
     std::function<void(std::string&, const Owner&)> write;
     std::function<bool(const Owner&)> is_set;
-    /// What is wrong with the owner's value, if it is set.
+    /// The fault of the owner's value, if it is set.
     std::function<Fault(const Owner&)> check;
-    std::string_view example{};  ///< of a key that is needed: a value for the message
-    /// Whether an owner, as it is by now, can have the key, and what is wrong if not.
+    std::string_view example{};  ///< of a required key: a value for the message
+    /// Whether an owner can have the key, given the keys before it. `fault` is the message if not.
     bool (*condition)(const Owner&) = nullptr;
     std::string_view fault{};
-    /// Whether an owner that can't have the key says nothing by the value behind it either.
+    /// For an owner that cannot have the key: whether the value behind it means nothing, and so is
+    /// no fault.
     bool (*is_idle)(const Owner&) = nullptr;
     bool repeatable = false;
-    bool omit_default = false;  ///< by the writer
+    bool omit_default = false;  ///< the writer omits default values
 
     [[nodiscard]] Row needed(std::string_view value) &&
     {
@@ -51,7 +53,7 @@ struct Row {
         return std::move(*this);
     }
 
-    /// What is wrong with the owner at this key.
+    /// The fault of the owner at this key.
     [[nodiscard]] Fault fault_in(const Owner& owner) const
     {
         if (is_allowed(owner))
@@ -89,7 +91,7 @@ inline constexpr bool is_optional = false;
 template <class Value>
 inline constexpr bool is_optional<std::optional<Value>> = true;
 
-/// A key of what `access` gives of an `Owner`.
+/// A key of the part of an `Owner` that `access` returns.
 template <class Owner, class Value, class Access>
 Row<Owner> row(std::string_view key, const Type<Value>& type, Access access,
                std::string_view meaning)
@@ -134,17 +136,18 @@ Row<Owner> row(std::string_view key, const Type<Value>& type, Member Owner::*mem
     return row<Owner, Value, Member Owner::*>(key, type, member, meaning);
 }
 
-/// scale, rotate, translate, matrix: each is applied after what the matrix has done so far.
+/// scale, rotate, translate, matrix. Each is applied after the transformations before it.
 [[nodiscard]] Rows<Mat4> transform_rows();
 
-/// What is wrong with an object's transform.
+/// The fault of an object's transform.
 [[nodiscard]] Fault fault_of_transform(const Mat4& transform);
 
-/// The rotation about a unit axis by Rodrigues' formula: x goes to y about z, y to z about x, z to
-/// x about y. Whole quarter turns are exact.
+/// The rotation about a unit axis, by Rodrigues' formula. A quarter turn takes x to y about z, y to
+/// z about x, and z to x about y. Multiples of a quarter turn are exact.
 [[nodiscard]] Mat4 axis_rotation(const Vec3& axis, double degrees);
 
-/// The keys of a block that becomes an `Owner`, in the order in which they are read and written.
+/// The keys of a block that is read into an `Owner`, in the order in which they are read and
+/// written.
 template <class Owner>
 const Rows<Owner> rows;
 
@@ -157,7 +160,7 @@ template <class Owner>
     return result;
 }
 
-/// The keys that an owner of this sort can have.
+/// The keys that this owner can have.
 template <class Owner>
 [[nodiscard]] Keys keys_of(const Owner& owner)
 {
@@ -168,7 +171,7 @@ template <class Owner>
     return result;
 }
 
-/// Those of them that may stand in a block several times.
+/// The keys that may occur several times in a block.
 template <class Owner>
 [[nodiscard]] Keys repeatable_keys_of(const Owner&)
 {
@@ -179,7 +182,8 @@ template <class Owner>
     return result;
 }
 
-/// Sets what the block's keys say. Throws SceneError for a wrong, a misplaced or a missing one.
+/// Reads the block's keys into the owner. Throws SceneError for a wrong, a misplaced or a missing
+/// key.
 template <class Owner>
 void read_rows(const Block& block, Owner& owner)
 {
@@ -202,14 +206,14 @@ void read_rows(const Block& block, Owner& owner)
     }
 }
 
-/// The fault of an owner, and the key that it is about.
+/// The fault of an owner, and its key.
 struct KeyFault {
     std::string_view key;
     std::string message;
 };
 using OwnerFault = std::optional<KeyFault>;
 
-/// Throws SceneError at the fault's key where it stands in the block, else at the block.
+/// Throws SceneError at the fault's key if the block has it, otherwise at the block.
 [[noreturn]] inline void refuse(const Block& block, const KeyFault& fault)
 {
     const auto field = block.find(fault.key);
@@ -217,7 +221,7 @@ using OwnerFault = std::optional<KeyFault>;
     at.refuse(at.entry.key.at, fault.message);
 }
 
-/// The first of the owner's keys with a fault.
+/// The fault of the owner's first key with one.
 template <class Owner>
 [[nodiscard]] OwnerFault fault_in_rows(const Owner& owner)
 {
@@ -227,7 +231,7 @@ template <class Owner>
     return std::nullopt;
 }
 
-/// Writes each key that says something, between `before` and `after`; returns how many.
+/// Writes each key with is_written(), between `before` and `after`. Returns their number.
 template <class Owner>
 std::size_t write_rows(std::string& out, const Owner& owner, std::string_view before = " ",
                        std::string_view equals = "=", std::string_view after = "")
@@ -243,19 +247,20 @@ std::size_t write_rows(std::string& out, const Owner& owner, std::string_view be
     return written;
 }
 
-/// A scene's text, and how many keys it has.
+/// The text of a scene, and its number of keys.
 struct SceneText {
     std::string text;
     std::size_t keys = 0;
 };
 
-/// The text of a scene, whatever faults it has; one without reads back as the same.
+/// The text of a scene, which may have faults. The text of a scene without faults reads back as the
+/// same scene.
 [[nodiscard]] SceneText write_unchecked(const Scene& scene);
 
 /// The names of the tables that describe the language: "scene", "camera", …
 [[nodiscard]] std::span<const std::string_view> key_table_names();
 
-/// A table of docs/scene.md in Markdown, made from the rows; empty for an unknown name.
+/// A table of docs/scene.md in Markdown, made from the rows. Empty for an unknown name.
 [[nodiscard]] std::string key_table(std::string_view name);
 
 }  // namespace packtrace::language

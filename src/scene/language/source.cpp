@@ -23,7 +23,7 @@ std::string placed(const Source& source, Position at, const std::string& message
     throw SceneError(escape(name) + ": " + reason);
 }
 
-/// Stops early in a line that is too long, which a file that is no text mostly is.
+/// Stops early in a line that is too long, because files that are not text mostly have one.
 std::string read_up_to(std::istream& in, std::size_t limit)
 {
     constexpr std::size_t step = std::size_t{1} << 16u;

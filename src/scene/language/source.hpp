@@ -8,19 +8,19 @@
 #include <string>
 #include <string_view>
 
-// A scene's text before its meaning: where it comes from, whether it is text at all, and how a
-// message names a place in it.
+// The text of a scene before it is parsed: loading it, checking that it is text, and messages with
+// a position in it.
 namespace packtrace::language {
 
-/// The longest scene file and the longest line in one, bytes. Far above any scene of use, and
-/// low enough that whatever is handed in by mistake is refused at once.
+/// The longest scene file and the longest line, in bytes. They are far above those of useful
+/// scenes, and low enough to reject a wrong file at once.
 inline constexpr std::size_t longest_file = std::size_t{1} << 30u;
 inline constexpr std::size_t longest_line = std::size_t{1} << 20u;
 
-/// The most keys in a scene file. A tree takes far more memory than its text.
+/// The largest number of keys in a scene file. A syntax tree takes far more memory than its text.
 inline constexpr std::size_t most_keys = 8'000'000;
 
-/// A place in a scene file; line and column count from 1, columns in bytes.
+/// A position in a scene file. Lines and columns count from 1, columns in bytes.
 struct Position {
     std::uint32_t line = 1;
     std::uint32_t column = 1;
@@ -31,7 +31,7 @@ struct Position {
     }
 };
 
-/// The text of a scene and the name it goes by in messages.
+/// The text of a scene, and its name in messages.
 struct Source {
     std::string name;
     std::string_view text;
@@ -41,17 +41,17 @@ struct Source {
 /// Throws SceneError `name:line:column: message`.
 [[noreturn]] void fail(const Source& source, Position at, const std::string& message);
 
-/// Passes on `name:line:column: message`, if anybody takes it.
+/// Calls take_warning, unless empty, with `name:line:column: message`.
 void warn(const Source& source, Position at, const std::string& message);
 
-/// A scene file's bytes; no more are read than tell that it is longer than a scene may be.
-/// Throws SceneError for a file that can't be read.
+/// Reads the bytes of a scene file. Of a file that is too long, it reads only enough to find that
+/// out. Throws SceneError if the file cannot be read.
 [[nodiscard]] std::string load_text(const std::filesystem::path& file);
 
-/// The same of a stream; `name` stands for it in messages.
+/// Reads the bytes of a stream, likewise. Messages call it `name`.
 [[nodiscard]] std::string load_text(std::istream& in, const std::string& name);
 
-/// Throws SceneError for what can't be a scene's text: too long, empty or binary.
+/// Throws SceneError for text that cannot be a scene: too long, empty or binary.
 void check_text(const Source& source);
 
 }  // namespace packtrace::language

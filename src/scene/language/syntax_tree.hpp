@@ -7,10 +7,11 @@
 #include <string_view>
 #include <vector>
 
-// A scene as its grammar sees it: entries, and blocks whose keys have been checked.
+// The syntax tree of a scene: entries, and blocks whose keys have been checked.
 namespace packtrace::language {
 
-/// A run of letters, digits and `_ . + -`: a number, a key or a name, told apart by its reader.
+/// A run of letters, digits and `_ . + -`. Its reader decides whether it is a number, a key or a
+/// name.
 struct Word {
     Position at;
     std::string_view text;
@@ -23,11 +24,11 @@ enum class ItemKind {
     size    ///< 640 x 480
 };
 
-/// One item of the comma-separated list that a value is.
+/// One item of a value, which is a comma-separated list.
 struct Item {
     ItemKind kind = ItemKind::word;
     Position at;
-    std::string_view text;    ///< the word, the quoted text, or what stands before a tuple's '('
+    std::string_view text;    ///< the word, the quoted text, or the text before a tuple's '('
     std::vector<Word> parts;  ///< of a tuple or size
 };
 
@@ -44,41 +45,41 @@ struct Entry {
     std::vector<Entry> entries;  ///< of a block
 };
 
-/// The whole file as one block without a key. Views point into `source.text`. Throws
-/// SceneError at the first place that breaks the grammar.
+/// Parses the whole file into one block without a key. Views point into `source.text`. Throws
+/// SceneError at the first syntax error.
 [[nodiscard]] Entry parse_tree(const Source& source);
 
-/// One `key = value` or `key { … }` with the source it came from, for messages.
+/// One `key = value` or `key { … }`, with its source for messages.
 struct Field {
     const Source& source;
     const Entry& entry;
-    std::string_view subject{};  ///< what a wrong value belongs to: "sphere 3"
+    std::string_view subject{};  ///< the owner of the value, for messages: "sphere 3"
 
     /// Throws SceneError at the key.
     [[noreturn]] void fail(const std::string& message) const;
-    /// Throws SceneError for a value that a scene built in code can have as well, with the words
-    /// that validate() has for it.
+    /// Throws SceneError for a value that a scene built in code may have, too. The message is that
+    /// of validate().
     [[noreturn]] void refuse(Position at, const std::string& message) const;
 };
 
-/// A list of keys; the literals behind them live for ever.
+/// A list of keys. They view string literals.
 using Keys = std::vector<std::string_view>;
 
 [[nodiscard]] bool contains(const Keys& keys, std::string_view key);
 void add(Keys& keys, const Keys& more);
 
-/// A block whose keys have been checked: each is known, and given once unless repeatable.
+/// A block whose keys have been checked: each is known, and occurs once unless it is repeatable.
 class Block {
 public:
-    /// `title` names the block in messages: "sphere". Throws SceneError at a key that is
-    /// neither in `once` nor in `repeatable`, or is given twice and not in the latter.
+    /// `title` names the block in messages: "sphere". Throws SceneError at a key that is neither in
+    /// `once` nor in `repeatable`, and at a second occurrence of a key that is not in `repeatable`.
     Block(const Field& field, std::string_view title, const Keys& once,
           const Keys& repeatable = {});
 
     [[nodiscard]] std::optional<Field> find(std::string_view key) const;
-    /// Throws SceneError as the key is missing; `example` is a value for the message.
+    /// Throws SceneError: the key is missing. The message shows `example` as a value.
     [[noreturn]] void fail_missing(std::string_view key, std::string_view example) const;
-    /// All entries, in the order written.
+    /// All entries, in the order of the file.
     [[nodiscard]] std::vector<Field> fields() const;
 
     [[nodiscard]] const Field& field() const
@@ -86,7 +87,7 @@ public:
         return field_;
     }
 
-    /// Names what the block is about, for messages; `subject` is kept.
+    /// Sets the subject of messages about values. Keeps the view `subject`.
     void set_subject(std::string_view subject)
     {
         field_.subject = subject;

@@ -200,7 +200,7 @@ Type<std::vector<Vec3>> points()
                 return points;
             },
             [](std::string& out, const std::vector<Vec3>& points) {
-                // Lines are limited, contours hardly.
+                // Several lines, because a line has a maximum length.
                 constexpr std::size_t points_in_line = 256;
                 for (std::size_t i = 0; i < points.size(); ++i) {
                     out += i == 0 ? "" : i % points_in_line == 0 ? ",\n" : ",";
@@ -229,7 +229,7 @@ Type<Vec3> unit_direction()
                 const Vec3 direction = to_vector(read_numbers(field, 3, "(0, 1, 2)", any_size));
                 if (const Fault fault = fault_of_zero(field.entry.key.text, direction))
                     field.refuse(field.entry.value[0].at, *fault);
-                // What has been read and written keeps its digits.
+                // A unit vector keeps its digits when it is written and read again.
                 return is_unit(direction) ? direction : unit_vector(direction);
             },
             append_vector, fault_of_unit};

@@ -16,17 +16,19 @@
 #include <utility>
 #include <vector>
 
-// The kinds of values that keys take.
+// The types of values that keys take.
 namespace packtrace::language {
 
-/// How a value is described, read, written and checked.
+/// Describes, reads, writes and checks values of one type.
 template <class Value>
 struct Type {
-    std::string takes;  ///< for the reference: "number above 0"
-    /// Throws SceneError that says what the key wants. It takes what `check` finds no fault with.
+    std::string takes;  ///< for docs/scene.md: "number above 0"
+    /// Throws SceneError with a message that says what the key wants. Accepts exactly the values in
+    /// which `check` finds no fault.
     std::function<Value(const Field&)> read;
     std::function<void(std::string& out, const Value&)> write;
-    /// The first fault of a value under this key, whoever made it. Allocates for a fault only.
+    /// The first fault of a value for this key, also of values from code. Allocates only for a
+    /// fault.
     std::function<Fault(std::string_view key, const Value&)> check;
 };
 
@@ -36,9 +38,9 @@ struct Type {
 [[nodiscard]] Type<Vec3> point();
 /// (x, y, z), (x, y, z), …
 [[nodiscard]] Type<std::vector<Vec3>> points();
-/// (x, y, z) other than (0, 0, 0), as long as written.
+/// (x, y, z) other than (0, 0, 0). Keeps its length.
 [[nodiscard]] Type<Vec3> direction();
-/// The same of any length, made 1 unless it is but for rounding.
+/// (x, y, z) other than (0, 0, 0). It is normalised, unless it is_unit() already.
 [[nodiscard]] Type<Vec3> unit_direction();
 /// (a, b)
 [[nodiscard]] Type<Vec2> pair(const Range& range);
@@ -46,20 +48,21 @@ struct Type {
 [[nodiscard]] Type<Vec2> size(Range range);
 /// Two numbers, the second above the first.
 [[nodiscard]] Type<ZRange> z_range();
-/// (r, g, b) in 0 to 255 or rgb(r, g, b) in 0 to 1, linear in 0 to 1.
+/// (r, g, b) in 0 to 255 or rgb(r, g, b) in 0 to 1. The value is linear, in 0 to 1.
 [[nodiscard]] Type<Rgb> color();
 /// 0 or more: one number for all channels, (r, g, b), or rgb(r, g, b) in 0 to 1.
 [[nodiscard]] Type<Rgb> factor();
 /// A word, or text in quotes.
 [[nodiscard]] Type<std::string> name();
-/// The longest name, bytes, and the most corners of a contour.
+/// The longest name in bytes, and the largest number of corners of a contour.
 inline constexpr std::size_t longest_name = 4096;
 inline constexpr std::size_t most_points = 65'536;
 
-/// The nine numbers of a rotation, row by row; nearly one is mended with a warning.
+/// The nine numbers of a rotation, row by row. A matrix that is nearly a rotation is replaced by
+/// the nearest one, with a warning.
 [[nodiscard]] Type<Mat3> rotation();
 
-/// Two colours and the edge of a square.
+/// The two colours of a checker and the edge of its squares.
 struct CheckerValue {
     Rgb color{1.0};
     Checker checker;
@@ -84,7 +87,7 @@ template <std::size_t count>
         }};
 }
 
-/// One of an enumeration's words.
+/// One of the words of an enumeration.
 template <class Enum>
 [[nodiscard]] Type<Enum> choice()
 {

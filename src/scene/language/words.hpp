@@ -8,19 +8,19 @@
 #include <string_view>
 #include <vector>
 
-// The words of the scene language that stand for values of enumerations and for kinds of surfaces,
-// each with what it stands for.
+// The words of the scene language for values of enumerations and for kinds of surfaces, with their
+// meanings.
 namespace packtrace {
 
-/// A quadric kind that has a name and coefficients of its own.
+/// A quadric kind with a name and fixed coefficients.
 struct QuadricKindInfo {
     QuadricKind kind;
-    std::string_view name;  ///< the scene language's
+    std::string_view name;  ///< in the scene language
     std::array<double, 10> coefficients;
     std::string_view equation;  ///< for readers
 };
 
-/// Every kind but `general`.
+/// All kinds except `general`.
 [[nodiscard]] std::span<const QuadricKindInfo> quadric_kinds();
 
 /// The row of a kind; null for `general`.
@@ -64,7 +64,7 @@ constexpr std::array<Spelling<LightType>, 3> spellings(LightType)
              {LightType::directional, "directional"}}};
 }
 
-/// A word is taken for either value by more than one spelling; the first of each is written.
+/// Each value has two spellings. Both are read; the first is written.
 constexpr std::array<Spelling<bool>, 4> spellings(bool)
 {
     return {{{false, "no"}, {true, "yes"}, {false, "false"}, {true, "true"}}};
@@ -72,7 +72,7 @@ constexpr std::array<Spelling<bool>, 4> spellings(bool)
 
 [[nodiscard]] std::vector<Spelling<QuadricKind>> spellings(QuadricKind);
 
-/// The word that is written for a value; empty for none of the enumeration.
+/// The word that is written for a value; empty for a value that the enumeration does not have.
 template <class Enum>
 [[nodiscard]] constexpr std::string_view word_of(Enum value)
 {
@@ -82,7 +82,7 @@ template <class Enum>
     return {};
 }
 
-/// The value that a word stands for.
+/// The value of a word; not set for an unknown word.
 template <class Enum>
 [[nodiscard]] constexpr std::optional<Enum> find_word(std::string_view word)
 {
@@ -95,13 +95,13 @@ template <class Enum>
 /// `word { … }` is an object with a surface of this kind.
 struct SurfaceWord {
     std::string_view word;
-    Surface blank;  ///< of the kind, with the coefficients that the kind has of its own
+    Surface blank;  ///< a surface of this kind, with the kind's coefficients
     std::string_view equation;
 };
 
 /// All kinds, in the order in which they are listed.
 [[nodiscard]] std::span<const SurfaceWord> surface_words();
-/// That of a general quadric for a kind that does not exist.
+/// The word of a surface. For a kind that does not exist, that of a general quadric.
 [[nodiscard]] const SurfaceWord& word_of(const Surface& surface);
 
 }  // namespace packtrace::language

@@ -52,7 +52,7 @@ private:
         out_ += "}\n";
     }
 
-    /// The keys of a material, each with a blank before it.
+    /// The keys of a material, each after a blank.
     std::string material_text(const Material& material)
     {
         std::string text;
@@ -60,14 +60,14 @@ private:
         return text;
     }
 
-    /// Writes what named materials the objects have, each as its first object has it.
+    /// Writes the named materials, each as its first object has it.
     void write_materials(const Scene& scene)
     {
         for (const Object& object : scene.objects) {
             if (object.material.name.empty() || materials_.contains(object.material.name))
                 continue;
             Material material = object.material;
-            // The colours of a checker are its object's own.
+            // The colours of a checker belong to the object, not to the named material.
             if (material.checker.reset(), object.material.checker)
                 material.color = Rgb(1.0);
             open("material ");
@@ -79,7 +79,7 @@ private:
         }
     }
 
-    /// The keys that the object's material has other than the named one.
+    /// The keys of the object's material, or nothing if it equals the named one.
     std::string own_material_text(const Material& material)
     {
         const auto named = materials_.find(material.name);
@@ -100,7 +100,7 @@ private:
         const Material& material = object.material;
         ObjectKeys own;
         own.casts_shadow = object.casts_shadow;
-        // Names that the reader gives on its own are not written.
+        // Default names are not written.
         if (!names_.takes(object))
             own.name = object.name;
         if (!material.name.empty())
@@ -121,7 +121,7 @@ private:
 
     std::string out_;
     std::size_t keys_ = 0;
-    /// The keys of every named material, as `material_text` gives them.
+    /// The keys of every named material, from material_text().
     std::map<std::string, std::string, std::less<>> materials_;
     DefaultNames names_;
 };
