@@ -1,5 +1,5 @@
-# libdeflate, as the target Deflate::Deflate: not every release of it brings a CMake package. This
-# file is installed, for programs that link packtrace::static.
+# libdeflate, as the target Deflate::Deflate: not every release of it has a CMake package. This file
+# is installed, for programs that link packtrace::static.
 find_path(Deflate_INCLUDE_DIR libdeflate.h DOC "Folder that holds libdeflate.h")
 find_library(Deflate_LIBRARY deflate DOC "libdeflate")
 mark_as_advanced(Deflate_INCLUDE_DIR Deflate_LIBRARY)

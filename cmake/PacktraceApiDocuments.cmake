@@ -1,5 +1,5 @@
 # Doxygen reads the public headers: cmake --build --preset release --target api_documents, into
-# documents/api of the build folder. A test asks that it warns of nothing.
+# documents/api of the build folder. A test checks that Doxygen gives no warning.
 find_program(PACKTRACE_DOXYGEN doxygen DOC "Doxygen, which makes the reference of the headers")
 if(PACKTRACE_DOXYGEN)
     set(PACKTRACE_API_DOCUMENTS ${PROJECT_BINARY_DIR}/documents/api)

@@ -1,8 +1,9 @@
-# Every dependency comes from the system's packages. What is missing is gathered and said in
-# one line, with the command that installs it.
+# Every dependency comes from the system's packages. One message lists all missing packages, with
+# the command that installs them.
 set(missing_packages "")
 
-# What the library is linked to. Where packtrace is a part of another project, that project's targets
+# Dependencies of the library. If packtrace is a part of another project, that project's targets
+# link to them too: so they must be visible outside this folder.
 # are linked to them too: they must be known outside this folder.
 set(packtrace_linked glm::glm TBB::tbb PNG::PNG ZLIB::ZLIB Deflate::Deflate Threads::Threads)
 set(packtrace_known "")
@@ -57,7 +58,7 @@ if(PACKTRACE_BUILD_BENCH)
 endif()
 
 if(PACKTRACE_PYTHON)
-    # Of the Python that PATH names; -DPython_EXECUTABLE names another one.
+    # For the Python that PATH finds; -DPython_EXECUTABLE selects another one.
     set(Python_FIND_STRATEGY LOCATION)
     find_package(Python 3.10 COMPONENTS Interpreter Development.Module QUIET)
     packtrace_need(Python_FOUND python3-dev)
@@ -75,8 +76,8 @@ if(PACKTRACE_PYTHON)
     endif()
 endif()
 
-# Not among what is needed: without it, packtrace-mpi is left out. Another machine's MPI is not this
-# one's, and sanitizers find leaks in MPI itself.
+# Optional: without MPI, packtrace-mpi is not built. A cross build cannot use this machine's MPI,
+# and sanitizers find leaks in MPI itself.
 if(PACKTRACE_BUILD_PROGRAM AND PACKTRACE_BUILD_MPI AND NOT CMAKE_CROSSCOMPILING AND
    NOT PACKTRACE_SANITIZE)
     find_package(MPI QUIET COMPONENTS CXX)
@@ -97,7 +98,7 @@ foreach(target IN LISTS packtrace_linked)
     endif()
 endforeach()
 
-# Third-party headers as system headers, so that their warnings are not ours.
+# Third-party headers count as system headers, so that their warnings are hidden.
 function(packtrace_header_library name directory)
     add_library(${name} INTERFACE)
     target_include_directories(${name} SYSTEM INTERFACE ${directory})

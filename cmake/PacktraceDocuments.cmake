@@ -1,12 +1,12 @@
-# What the program itself tells: completions for shells, and man pages, which help2man makes of its
-# --help. Both are written by the built program.
+# Documents that the built program writes: completions for shells, and man pages, which help2man
+# makes of its --help.
 set(documents ${PROJECT_BINARY_DIR}/documents)
 if(CMAKE_CROSSCOMPILING AND NOT CMAKE_CROSSCOMPILING_EMULATOR)
     message(STATUS "packtrace: no completions and man pages, as the program does not run here")
     return()
 endif()
 
-# The names under which each shell looks for completions of packtrace.
+# The file names under which each shell looks for packtrace's completions.
 set(completion_files bash/packtrace zsh/_packtrace fish/packtrace.fish)
 set(completion_commands "")
 foreach(file IN LISTS completion_files)
@@ -31,8 +31,8 @@ if(NOT PACKTRACE_HELP2MAN)
     message(STATUS "packtrace: no man pages, which need help2man")
     return()
 endif()
-# packtrace_man_pages(NAME TARGET COMPONENT DESCRIPTION [PAGE…]): pages of a program, which is
-# installed as NAME, and of its commands. They refer to the further PAGEs.
+# packtrace_man_pages(NAME TARGET COMPONENT DESCRIPTION [PAGE…]): the pages of a program, which is
+# installed as NAME, and of its commands. They refer to the other PAGEs.
 function(packtrace_man_pages name target component description)
     set(folder ${documents}/${component}/man1)
     add_custom_command(OUTPUT ${folder}/${name}.1
@@ -46,7 +46,7 @@ function(packtrace_man_pages name target component description)
 endfunction()
 packtrace_man_pages(packtrace packtrace_cli runtime
                     "trace rays through scenes of analytic surfaces, in packets")
-# Asked for help, it needs no other process of MPI.
+# For its help, the program needs no other MPI process.
 if(TARGET packtrace_mpi)
     packtrace_man_pages(packtrace-mpi packtrace_mpi mpi "packtrace on many machines, by MPI"
                         packtrace)

@@ -1,14 +1,14 @@
-# Flags of everything that feeds a picture, host side included.
-#   -ffp-contract=off       a fused operation only where the source writes one
+# Flags of all code that contributes to a picture, including code outside the kernels.
+#   -ffp-contract=off       a fused operation only where the source has one
 #   -fno-tree-vectorize     GCC 12 turns a*b-c, a*b+c into fmaddsub in spite of contract=off
 #   -fno-math-errno         square roots without a call into libm
 #   -fno-trapping-math      nothing reads the floating-point exception flags
-#   -fno-fast-math          a project around this one may be compiled with -ffast-math or -Ofast, by which
-#                           neither errors nor NaNs are as they are written
-# -fno-tree-vectorize is GCC's; clang contracts only what it is told to.
+#   -fno-fast-math          a surrounding project may use -ffast-math or -Ofast, which change rounding
+#                           errors and NaNs
+# -fno-tree-vectorize is for GCC; clang contracts only on request.
 # -Wno-restrict: GCC 12 warns of "literal" + std::string without cause (its bug 105651).
-# -Wno-subobject-linkage: in unity builds it takes sources for headers.
-# -Wno-psabi: GCC notes that for Arm it passes some structs otherwise than GCC 9 did.
+# -Wno-subobject-linkage: in unity builds it mistakes sources for headers.
+# -Wno-psabi: GCC notes that on Arm it passes some structs differently from GCC 9.
 set(no_psabi "")
 if(CMAKE_SYSTEM_PROCESSOR MATCHES "aarch64|arm64")
     set(no_psabi $<$<CXX_COMPILER_ID:GNU>:-Wno-psabi>)
@@ -24,8 +24,8 @@ target_compile_options(packtrace_flags INTERFACE
 if(PACKTRACE_WERROR)
     target_compile_options(packtrace_flags INTERFACE -Werror)
 endif()
-# Tests and commands call what takes time; with sanitizers, optimising them takes twice as long to
-# build.
+# Tests and commands only call the slow code. With sanitizers, optimising them doubles their build
+# time.
 set(packtrace_caller_options "")
 if(PACKTRACE_SANITIZE)
     set(packtrace_caller_options -O0)
@@ -34,12 +34,12 @@ if(PACKTRACE_SANITIZE)
     target_link_options(packtrace_flags INTERFACE -fsanitize=${PACKTRACE_SANITIZE})
 endif()
 
-# What the library and the programs are hardened by, kernels apart, which read no input:
-#   _FORTIFY_SOURCE          libc's copies check the size of what they write to: 3, where compiler and
-#                            libc know it, for sizes that are known at run time only
-#   -fstack-protector-strong functions with arrays notice when their frame is overwritten
-#   -z relro -z now          symbols are bound at the start, and their table is read-only then
-# With PIE, programs lie at random addresses. Sanitizers bring checks of their own.
+# Hardening of the library and the programs, except kernels, which read no input:
+#   _FORTIFY_SOURCE          libc's copies check the size of their destination: level 3, if compiler
+#                            and libc support it, for sizes known only at run time
+#   -fstack-protector-strong functions with arrays detect an overwritten stack frame
+#   -z relro -z now          symbols are bound at the start, and then their table is read-only
+# With PIE, programs load at random addresses. Sanitizers have checks of their own.
 add_library(packtrace_hardening INTERFACE)
 set(packtrace_hardened OFF)
 if(PACKTRACE_HARDEN AND NOT PACKTRACE_SANITIZE)
@@ -58,7 +58,7 @@ int main() {}" PACKTRACE_FORTIFIES_ALL_SIZES)
     if(PACKTRACE_FORTIFIES_ALL_SIZES)
         set(packtrace_fortify_level 3)
     endif()
-    # libc fortifies only what is optimised. -U: some compilers define it by themselves.
+    # libc fortifies only optimised code. -U: some compilers define the macro by default.
     target_compile_options(packtrace_hardening INTERFACE -fstack-protector-strong
         "$<$<CONFIG:Release,RelWithDebInfo,MinSizeRel>:-U_FORTIFY_SOURCE;-D_FORTIFY_SOURCE=${packtrace_fortify_level}>")
     target_link_options(packtrace_hardening INTERFACE LINKER:-z,relro LINKER:-z,now)
@@ -73,13 +73,13 @@ function(packtrace_harden)
     endif()
 endfunction()
 
-# What optimises the kernels that render. By GCC's -O3, which peels loops and much else, they take
-# half as long again to build, and frames between 1 % less and 4 % more.
+# Optimisation of the kernels that render. GCC's -O3 does more than peel loops: it takes half as
+# long again to build, and frames take between 1 % less and 4 % more time.
 set(packtrace_frame_flags -O3)
 if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
     set(packtrace_frame_flags -O2 -fpeel-loops)
 endif()
-# What has those that measure or test something else built quickly, behind the flags of a kernel.
+# Flags that follow a kernel's flags, to build measuring and testing kernels quickly.
 set(packtrace_quick_flags -O1)
 if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
     list(APPEND packtrace_quick_flags -fno-peel-loops -finline-limit=300)

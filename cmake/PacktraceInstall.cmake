@@ -1,12 +1,12 @@
-# What `cmake --install` installs, in components: `runtime`, which runs packtrace and programs that
-# were built with it, `development`, which builds them, and `mpi`, the program that needs MPI.
+# The components of `cmake --install`: `runtime`, which runs packtrace and programs that were built
+# with it, `development`, which builds such programs, and `mpi`, the program that needs MPI.
 include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)
 
 set(packtrace_cmake_dir ${CMAKE_INSTALL_LIBDIR}/cmake/packtrace)
 set(packtrace_configured ${PROJECT_BINARY_DIR}/install)
 
-# The libraries, each with its own file of targets: who links the shared one needs no more than GLM.
+# The libraries, each with its own targets file: a user of the shared library needs only GLM.
 set(packtrace_kinds static)
 install(TARGETS packtrace EXPORT packtrace_static
         ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT development
@@ -25,7 +25,7 @@ foreach(kind IN LISTS packtrace_kinds)
             DESTINATION ${packtrace_cmake_dir} COMPONENT development)
 endforeach()
 
-# Headers of what this build leaves out would declare what no library has.
+# Headers of features that this build lacks would declare functions that no library defines.
 set(study_headers "/(certainty|explain|profile|report|write_report)\\.hpp$")
 file(GLOB public_headers CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/include/packtrace/*.hpp)
 if(NOT PACKTRACE_BUILD_STUDY)
@@ -45,7 +45,8 @@ install(FILES ${packtrace_configured}/packtraceConfig.cmake
               ${CMAKE_CURRENT_LIST_DIR}/FindDeflate.cmake
         DESTINATION ${packtrace_cmake_dir} COMPONENT development)
 
-# Paths of the pkg-config file start from the file itself, so that an installation may be moved.
+# Paths in the pkg-config file are relative to the file itself, so that an installation can be
+# moved.
 set(pkgconfig_dir ${CMAKE_INSTALL_FULL_LIBDIR}/pkgconfig)
 file(RELATIVE_PATH packtrace_prefix ${pkgconfig_dir} ${CMAKE_INSTALL_PREFIX})
 file(RELATIVE_PATH packtrace_libdir ${CMAKE_INSTALL_PREFIX} ${CMAKE_INSTALL_FULL_LIBDIR})
@@ -67,7 +68,7 @@ install(FILES ${example_scenes}
 install(FILES ${PROJECT_SOURCE_DIR}/LICENSE
         DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT runtime)
 
-# CMake itself has no such target. A project that took packtrace in has its own.
+# CMake has no such target. A surrounding project has its own.
 if(PROJECT_IS_TOP_LEVEL)
     add_custom_target(uninstall VERBATIM COMMAND ${CMAKE_COMMAND}
         -D MANIFEST=${CMAKE_BINARY_DIR}/install_manifest.txt

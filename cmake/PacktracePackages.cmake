@@ -1,9 +1,9 @@
-# `cpack` in the build folder makes Debian packages: one of each component that is installed.
+# `cpack` in the build folder makes Debian packages, one of each installed component:
 #   packtrace          runtime: the program, the shared library, example scenes
-#   libpacktrace-dev   development: headers, the static library, what finds them
-#   packtrace-mpi      mpi: the program for many ranks, where MPI is installed
+#   libpacktrace-dev   development: headers, the static library, CMake and pkg-config files
+#   packtrace-mpi      mpi: the program for many ranks, if MPI is installed
 #   python3-packtrace  python: the Python package, with PACKTRACE_PYTHON=ON
-# A package made on Debian 12 also installs on Debian 13, but for that of Python.
+# A package made on Debian 12 also installs on Debian 13, except the Python package.
 set(CPACK_GENERATOR DEB)
 set(CPACK_PACKAGE_NAME packtrace)
 set(CPACK_PACKAGE_VENDOR "The packtrace authors")
@@ -23,8 +23,8 @@ set(CPACK_DEBIAN_RUNTIME_PACKAGE_NAME packtrace)
 set(CPACK_DEBIAN_RUNTIME_PACKAGE_SECTION graphics)
 # Draws the plots of reports.
 set(CPACK_DEBIAN_RUNTIME_PACKAGE_SUGGESTS gnuplot-nox)
-# Says which package has the shared library, to packages of programs that need it. CPack would write
-# this by itself, but look for the same of the Python module, which nobody links.
+# Names the package with the shared library, for packages of programs that need it. CPack would also
+# write this file, but would include the Python module, which no program links.
 file(WRITE ${PROJECT_BINARY_DIR}/install/shlibs "libpacktrace \
 ${PROJECT_VERSION_MAJOR}.${PROJECT_VERSION_MINOR} packtrace (= ${PROJECT_VERSION})\n")
 set(CPACK_DEBIAN_RUNTIME_PACKAGE_CONTROL_EXTRA ${PROJECT_BINARY_DIR}/install/shlibs)
@@ -41,7 +41,7 @@ set(CPACK_COMPONENT_DEVELOPMENT_DESCRIPTION
 
 set(CPACK_DEBIAN_MPI_PACKAGE_NAME packtrace-mpi)
 set(CPACK_DEBIAN_MPI_PACKAGE_SECTION graphics)
-# Who has mpirun of the MPI that it is linked to.
+# The package with mpirun of the MPI that the program is linked to.
 set(CPACK_DEBIAN_MPI_PACKAGE_RECOMMENDS openmpi-bin)
 if("${MPI_CXX_LIBRARIES}" MATCHES mpich)
     set(CPACK_DEBIAN_MPI_PACKAGE_RECOMMENDS mpich)
@@ -52,7 +52,7 @@ set(CPACK_COMPONENT_MPI_DESCRIPTION
 
 set(CPACK_DEBIAN_PYTHON_PACKAGE_NAME python3-packtrace)
 set(CPACK_DEBIAN_PYTHON_PACKAGE_SECTION python)
-# A module is of one Python: that of the Debian it was built on.
+# A module works with one Python version: that of the Debian it was built on.
 if(PACKTRACE_PYTHON)
     math(EXPR next_python "${Python_VERSION_MINOR} + 1")
     set(CPACK_DEBIAN_PYTHON_PACKAGE_DEPENDS "python3-numpy, \
@@ -62,6 +62,6 @@ python3 (>= 3.${Python_VERSION_MINOR}~), python3 (<< 3.${next_python})")
 endif()
 set(CPACK_COMPONENT_PYTHON_DESCRIPTION "The Python module packtrace.")
 
-# Where Debian's own packages have a licence, and completions for zsh.
+# Debian's own places for licences and for zsh completions.
 set(CPACK_PRE_BUILD_SCRIPTS ${CMAKE_CURRENT_LIST_DIR}/debian_paths.cmake)
 include(CPack)

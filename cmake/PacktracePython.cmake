@@ -1,5 +1,5 @@
-# Where the Python package is installed, below the prefix: where the Python that it is built for
-# looks for packages of others. Debian's looks in dist-packages.
+# The installation folder of the Python package, below the prefix: where the Python it is built for
+# looks for third-party packages. Debian's Python looks in dist-packages.
 execute_process(
     COMMAND ${Python_EXECUTABLE} -c
 "import sysconfig

@@ -1,6 +1,6 @@
-# For CMAKE_TOOLCHAIN_FILE: builds for 64-bit Arm with Debian's cross compiler, against the packages
-# unpacked in the folder PACKTRACE_SYSROOT; tests run under qemu-aarch64. tests/check_arm.sh does all
-# of it.
+# For CMAKE_TOOLCHAIN_FILE: builds for 64-bit Arm with Debian's cross compiler, with the packages
+# unpacked in the folder PACKTRACE_SYSROOT. Tests run under qemu-aarch64. tests/check_arm.sh does
+# all of this.
 set(CMAKE_SYSTEM_NAME Linux)
 set(CMAKE_SYSTEM_PROCESSOR aarch64)
 set(CMAKE_TRY_COMPILE_PLATFORM_VARIABLES PACKTRACE_SYSROOT)

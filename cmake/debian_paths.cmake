@@ -1,5 +1,5 @@
-# CPack runs this on the folder of files that it makes the packages of: moves what Debian has in
-# places of its own, compresses man pages, and gives each package the licence.
+# CPack runs this in its staging folder: it moves files to Debian's own places, compresses man
+# pages, and adds the licence to each package.
 file(GLOB packages LIST_DIRECTORIES true ${CPACK_TEMPORARY_DIRECTORY}/*)
 foreach(package IN LISTS packages)
     set(share ${package}/usr/share)

@@ -1,5 +1,5 @@
-# Removes the files that the last `cmake --install` of a build folder installed, and the folders of
-# packtrace's own that are left empty. Variables: MANIFEST.
+# Removes the files that the last `cmake --install` of a build folder installed, and packtrace's own
+# folders that are then empty. Variables: MANIFEST.
 cmake_minimum_required(VERSION 3.22)
 if(NOT EXISTS "${MANIFEST}")
     message(FATAL_ERROR "${MANIFEST} is missing: nothing was installed from this build folder")

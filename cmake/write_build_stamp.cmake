@@ -1,6 +1,6 @@
-# Writes OUTPUT: what a measurement says of the build it comes from. Called by every build, so that
-# the commit is that of the sources when they were built. Untouched where nothing changed.
-# Variables: SOURCE, OUTPUT, FLAGS.
+# Writes OUTPUT: the facts about a build that measurements report. Every build calls this script, so
+# that the commit is that of the sources when they were built. OUTPUT is untouched if nothing
+# changed. Variables: SOURCE, OUTPUT, FLAGS.
 cmake_minimum_required(VERSION 3.22)
 execute_process(COMMAND git -C ${SOURCE} rev-parse --short HEAD
                 OUTPUT_VARIABLE commit OUTPUT_STRIP_TRAILING_WHITESPACE ERROR_QUIET
@@ -8,7 +8,7 @@ execute_process(COMMAND git -C ${SOURCE} rev-parse --short HEAD
 if(failed)
     set(commit unknown)
 else()
-    # Results and documents may differ: the program does not depend on them.
+    # Changes of results and documents do not count: the program does not depend on them.
     execute_process(COMMAND git -C ${SOURCE} diff --quiet HEAD -- . ":(exclude)results"
                             ":(exclude)docs" ":(exclude)*.md"
                     RESULT_VARIABLE differs ERROR_QUIET)
@@ -16,8 +16,8 @@ else()
         string(APPEND commit -dirty)
     endif()
 endif()
-# Of the files themselves: a commit says nothing of changes that are not committed. Kernels are left
-# out: kept truths do not depend on them, and they change most often.
+# A digest of the files themselves: a commit does not cover uncommitted changes. Kernels are
+# excluded: cached truths do not depend on them, and they change most often.
 file(GLOB_RECURSE sources RELATIVE ${SOURCE} ${SOURCE}/src/* ${SOURCE}/include/*)
 list(FILTER sources EXCLUDE REGEX "^src/kernels/")
 list(SORT sources)

@@ -14,8 +14,8 @@ shift 6
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 
-# The program under its installed name, with its help as help2man reads it best: "-h, --help", and
-# headings in small letters, which CLI11 2.5 capitalises. The terminal's width plays no part.
+# The program under its installed name, with its help adapted to help2man: "-h, --help", and
+# headings in lower case, which CLI11 2.5 capitalises. The terminal's width has no influence.
 cat >"$work/$name" <<TEXT
 #!/bin/sh
 "$program" "\$@" | sed -e 's/^\(  -[A-Za-z0-9]\),--/\1, --/' -e 's/^Usage: [^ ]*/Usage: $name/' \
@@ -26,14 +26,15 @@ chmod +x "$work/$name"
 PATH=$work:$PATH
 export PATH
 
-# words_of PAGE: "packtrace-generate-random" as it is typed, "packtrace generate random".
+# words_of PAGE: the command as typed; "packtrace-generate-random" gives "packtrace generate
+# random".
 words_of() {
     echo "$name$(echo "${1#"$name"}" | tr - ' ')"
 }
 
 # commands_of PAGE: "  render     Render a scene to a picture" in the help of PAGE becomes
-# "PAGE-render Render …"; those of that command follow. Builds without studies name the commands that
-# they leave out; these have no page.
+# "PAGE-render Render …"; the subcommands of that command follow. Builds without studies still name
+# the omitted commands in their help; these have no page.
 commands_of() {
     $(words_of "$1") --help |
         sed -n '/^Subcommands:/,$s/^  \([a-z][a-z]*\)  *\(.*\)/'"$1"'-\1 \2/p' |
@@ -45,12 +46,12 @@ commands_of() {
 commands_of "$name" >"$work/commands"
 [ -s "$work/commands" ] || { echo "$name --help lists no commands" >&2; exit 1; }
 
-# write_page PAGE DESCRIPTION: `also` are the pages that it refers to.
+# write_page PAGE DESCRIPTION: `also` contains the pages that it refers to.
 write_page() {
     printf '[see also]\n%s\n' "$also" >"$work/also"
     "$help2man" --no-info --section 1 --name "$2" --version-string "$name $version" \
         --include "$work/also" --output "$work/$1.1" "$(words_of "$1")"
-    # What help2man makes of "packtrace render" in its first lines is "packtrace".
+    # In its first lines help2man shortens "packtrace render" to "packtrace".
     upper=$(echo "$name" | tr '[:lower:]' '[:upper:]')
     sed -i -e "s/^\.TH $upper /.TH $(echo "$1" | tr '[:lower:]' '[:upper:]') /" \
         -e "/^\.SH NAME/,/^\.SH SYNOPSIS/s/^$(echo "$name" | sed 's/-/\\\\*-/')\(\\\\*\)\{0,1\} /$1 /" \

@@ -1,14 +1,15 @@
 #!/usr/bin/env python3
 """How packtrace-mpi scales: results/cluster.json.
 
-Measures what messages between two ranks take, through TCP on this machine, and what bands of large pictures
-and frames take to render on one thread and to write. With these figures `packtrace_cluster model` simulates jobs on 2 to
-4096 ranks of one thread; it hands work out by the program's own code. Also races two ranks of one thread against
-one process of two threads, by turns, and counts the bytes that ranks send.
+Measures the time of messages between two ranks, through TCP on this machine, and the time to render (on one
+thread) and to write bands of large pictures and frames. With these times `packtrace_cluster model` simulates jobs
+on 2 to 4096 ranks of one thread; it hands out work with the program's own code. Also races two ranks of one thread
+against one process of two threads, alternating between them, and counts the bytes that ranks send.
 
 Usage: results/cluster.py BUILD [REPETITIONS] [--trial]
-BUILD is a build folder with `packtrace`, `packtrace-mpi` and `bench/cluster`. REPETITIONS of the race are 9 by
-default. --trial takes small pictures and writes no file. docs/write_figures.py then writes its tables anew.
+BUILD is a build folder with `packtrace`, `packtrace-mpi` and `bench/cluster`. The default of
+REPETITIONS, of the race, is 9. --trial uses small pictures and writes no file. Afterwards docs/write_figures.py
+updates the tables.
 """
 import json
 import os
@@ -23,7 +24,7 @@ from provenance import FOLDER, commit_of_build, machine, write
 from ratios import share
 
 RANKS = [1 << i for i in range(13)]
-# A part of rank 0 that is busier than this is what all wait for.
+# If a part of rank 0 is busier than this share of the time, it is the bottleneck.
 BUSY = 0.9
 # Twice the ranks must be this much faster to count as scaling.
 GAIN = 1.5
@@ -46,13 +47,13 @@ def scene_file(name):
 
 
 def measured_messages(build, band_bytes):
-    # As between machines: through TCP, not through memory that both see.
+    # As between machines: through TCP, not through shared memory.
     tcp = mpirun(2, "--mca", "pml", "ob1", "--mca", "btl", "tcp,self", "--mca", "osc", "pt2pt")
     return json_of([*tcp, f"{build}/bench/cluster/packtrace_cluster_messages", str(band_bytes)])
 
 
 def message_costs(measured):
-    """As the model takes them."""
+    """The parameters of the model."""
     latency = measured["latency"]
     served = max(measured["counter_round_trip"] - 2 * latency, 0.0)
     return {"latency": latency, "bytes_per_second": measured["bytes_per_second"], "counter_seconds": served,
@@ -65,7 +66,7 @@ def measured_bands(build, scene, ending, size, bands, folder):
 
 
 def measured_frames(build, scene, size, folder):
-    """Frames, each with the time to write it: ranks write their own."""
+    """Times of frames, each with the time to write it: each rank writes its own frames."""
     seconds = []
     for _ in range(3):
         done = subprocess.run([f"{build}/packtrace", "render", scene_file(scene), "--size", size, "--threads", "1",
@@ -112,8 +113,8 @@ def seconds_of(command):
 
 
 def race(build, scene, size, repetitions, folder):
-    """Two ranks of one thread against one process of two threads, by turns; seconds as the programs say
-    them, without the start of MPI, and as a clock beside them does."""
+    """Two ranks of one thread against one process of two threads, alternating. Seconds as the programs report
+    them, without the start of MPI, and wall-clock seconds with it."""
     picture = ["render", scene_file(scene), "--size", f"{size}x{size}"]
     rows = {"process": [], "process_writes": [], "ranks": [], "process_wall": [], "ranks_wall": []}
     for _ in range(repetitions):
@@ -160,7 +161,7 @@ def main():
             studies.append(study(build, f"{scene}, {size} x {size}, {ending.upper()}", measured, costs))
         frames = measured_frames(build, "whitted", "1920x1080", folder)
         studies.append(study(build, "whitted, 1000 frames of 1920 x 1080", frames, costs))
-        # The model against the race, where rank 0 writes the whole picture in the end.
+        # Compares the model with the race, where rank 0 writes the whole picture at the end.
         measured = measured_bands(build, "whitted", "png", race_size, bands, folder)
         check = (simulated(build, dict(measured, write_seconds=0.0), costs, [2])[0]["seconds"]
                  + statistics.median(raced["seconds"]["process_writes"]))

@@ -1,9 +1,9 @@
 #!/usr/bin/env python3
-"""Which small scenes are traced in registers, and what that gives: results/crowding.json.
+"""Which small scenes are traced in registers, and how fast: results/crowding.json.
 
-Times of frames of random spheres in a cube, whose squares of radii add up to `cover`, one thread, by
-lists, in the default mode, by turns with the general kernel's streams and with an earlier build that
-traces all of them in registers.
+Times of frames of random spheres in a cube whose squared radii add up to `cover`: one thread, lists,
+default mode. Runs alternate with the streams of the general kernel and with an earlier build that
+traces all these scenes in registers.
 
 usage: results/crowding.py BUILD BEFORE [REPETITIONS]
 BUILD and BEFORE are build folders with `packtrace`.

@@ -1,14 +1,14 @@
 #!/usr/bin/env python3
-"""What `exact` costs: results/exact_cost.json.
+"""The cost of `exact`: results/exact_cost.json.
 
-Rates of a caller's rays and times of frames, one thread, in `exact`, in `fast`, in double precision,
-with the notes' rule for self-hits and, with BEFORE, in the default mode of an earlier build of the
-program, all by turns.
+Rates of a caller's rays and times of frames on one thread: in `exact`, in `fast`, in double
+precision, with the notes' rule for self-hits and, with BEFORE, in the default mode of an earlier
+build. The runs alternate.
 
 Usage: results/exact_cost.py BUILD [BEFORE [REPETITIONS [ISA]]]
-BUILD and BEFORE are build folders with `packtrace` and `bench/scaling/packtrace_rays`. docs/write_figures.py
-then writes its tables anew. With ISA, for a machine that lacks others, only that instruction set is
-measured, and the file is results/exact_cost_ISA.json.
+BUILD and BEFORE are build folders with `packtrace` and `bench/scaling/packtrace_rays`. Afterwards
+docs/write_figures.py updates the tables. With ISA, the script measures only this instruction set, for a
+machine that lacks others, and writes results/exact_cost_ISA.json.
 """
 import json
 import pathlib
@@ -28,7 +28,7 @@ RAYS = [("four_spheres", 512, ("avx512", "avx2")), ("spheres32", 512, ("avx512",
 DEFAULT = {"rays": [], "frame": []}
 FAST = {"rays": ["--fast"], "frame": ["--accuracy", "fast"]}
 DOUBLE = {"rays": ["--double"], "frame": ["--precision", "double"]}
-# Rays of a caller's own start where the caller says.
+# The rule does not apply to a caller's rays: the caller chooses their starts.
 NOTE = {"rays": None, "frame": ["--self-hits", "note"]}
 FRAMES = ["four_spheres", "whitted", "flight", "general", "mirror_room", "quadrics", "sketch"]
 
@@ -40,7 +40,7 @@ def rates(build, scene, size, isa, options):
 
 
 def rows_of_rays(ways, scene, size, isa, repetitions):
-    """A row for each kind of rays that `exact` and another of the ways have, (build, options) each."""
+    """A row for each kind of rays in `exact`, compared with the other `ways`, each (build, options)."""
     found = by_turns(ways, repetitions, lambda way: rates(way[0], scene, size, isa, way[1]))
     return [row_of({"scene": scene, "isa": isa, "rays": kind, "unit": "million rays a second"},
                    {name: [run[kind] for run in runs] for name, runs in found.items() if kind in runs[0]},
@@ -49,7 +49,7 @@ def rows_of_rays(ways, scene, size, isa, repetitions):
 
 
 def row_of(of, times, speed):
-    """`speed` of a measurement: higher is faster."""
+    """`speed` turns a measured value into one that is higher for faster runs."""
     row = dict(of, **{mode: statistics.median(values) for mode, values in times.items()})
     speeds = {mode: [speed(x) for x in values] for mode, values in times.items()}
     for mode in times:

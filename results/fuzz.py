@@ -1,10 +1,10 @@
 #!/usr/bin/env python3
-"""Writes results/fuzz.json: how many inputs each fuzzer of tests/fuzz tried. It adds to the counts
-that the file has, which may be of earlier commits. What a finding was is entered by hand.
+"""Writes results/fuzz.json: how many inputs each fuzzer of tests/fuzz tried. Adds to the counts in
+the file, which may be of earlier commits. The causes of findings are entered by hand.
 
 usage: results/fuzz.py MINUTES [AT_ONCE]
 
-Build the fuzzers first (`./run fuzz 1`). AT_ONCE of them, 2 unless said, run side by side.
+Build the fuzzers first (`./run fuzz 1`). AT_ONCE of them (default 2) run side by side.
 """
 import concurrent.futures
 import pathlib
@@ -27,7 +27,7 @@ def names():
 
 
 def run_part(name):
-    """How many inputs a fuzzer tries in one part, the seconds, and what it says where it fails."""
+    """The number of inputs a fuzzer tries in one part, the seconds, and its message if it fails."""
     started = time.monotonic()
     done = subprocess.run([ROOT / "tests/fuzz/run_fuzzers.sh", "--only", name,
                            ROOT / "build/fuzz/tests/fuzz", str(SECONDS_OF_A_PART)],

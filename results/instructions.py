@@ -1,12 +1,12 @@
 #!/usr/bin/env python3
 """Instructions of a frame's kernels by function and kind: results/instructions.json.
 
-Counts are valgrind's (callgrind) for every 16 pixels and all their rays, of avx2, which valgrind
-knows; they do not depend on the machine or its load. What the compiler inlined counts where it
-stands.
+The counts are those of valgrind (callgrind) for every 16 pixels and all their rays, with avx2, the
+widest set that valgrind knows. They do not depend on the machine or its load. Inlined code counts
+for the function that contains it.
 
 Usage: results/instructions.py BUILD [BEFORE]
-BUILD and BEFORE are build folders with `packtrace`. docs/write_figures.py then writes its tables anew.
+BUILD and BEFORE are build folders with `packtrace`. Afterwards docs/write_figures.py updates the tables.
 """
 import collections
 import pathlib
@@ -20,14 +20,14 @@ from provenance import commit_of_build, machine, write
 ROOT = pathlib.Path(__file__).resolve().parents[1]
 SCENES = ["four_spheres", "whitted", "quadrics", "mirror_room"]
 SIZE = 512
-# A packet of avx512; of avx2 it is two.
+# One packet of avx512, or two of avx2.
 PIXELS = 16
 KERNEL = "packtrace::avx2::"
-# An address, a line that is not known, and what it cost.
+# An address, an unknown line, and the cost.
 COST = re.compile(r"^(0x[0-9a-f]+) \d+ (\d+)$")
 INSTRUCTION = re.compile(r"^ *([0-9a-f]+):\t(\S+)(.*)$")
 STACK = re.compile(r"\(%r[sb]p[,)]")
-# The first that a mnemonic matches is its kind.
+# The first pattern that a mnemonic matches gives its kind.
 KINDS = {
     "division, root": r"v(div|sqrt)",
     "conversion": r"vcvt",
@@ -55,7 +55,7 @@ def kinds_by_address(program):
 
 
 def own_costs(lines):
-    """Instructions by function and address, without those of what it calls."""
+    """Instructions by function and address, without those of called functions."""
     costs = collections.defaultdict(collections.Counter)
     function = ""
     of_callee = False
@@ -83,14 +83,14 @@ def without_brackets(text, opening, closing):
 
 
 def short(function):
-    """The name of a kernel's function alone, without what the compiler and valgrind add to it."""
+    """The name of a kernel's function, without the additions of compiler and valgrind."""
     name = function.replace("(anonymous namespace)::", "").replace("operator()", "call")
     name = without_brackets(without_brackets(name, "<", ">"), "(", ")")
     return re.split(r"['\[ ]", name.split("::")[-1].strip())[0]
 
 
 def by_function(build, scene, kinds):
-    """Kinds of instructions of each function, for PIXELS pixels."""
+    """Instructions of each function by kind, for PIXELS pixels."""
     program = f"{build}/packtrace"
     with tempfile.TemporaryDirectory() as folder:
         raw = pathlib.Path(folder) / "callgrind"

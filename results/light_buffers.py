@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
-"""What lights' own views of a hierarchy are worth: results/light_buffers.json.
+"""The gain of light buffers of a bvh: results/light_buffers.json.
 
-Times of frames of 1024 x 1024 pixels, one thread, avx512, in the default mode, by turns with an earlier build
-that looks for all shadows in the hierarchy. `render` counts the building of both.
+Times of frames of 1024 x 1024 pixels: one thread, avx512, default mode. Runs alternate with an earlier build
+that traces all shadow rays through the bvh. The times of `render` include building bvh and buffers.
 
 Usage: results/light_buffers.py BUILD BEFORE [REPETITIONS]
 BUILD and BEFORE are build folders with `packtrace`.
@@ -26,12 +26,12 @@ SCENES = {
     "mirrored flake6": ["sphereflake", "--depth", "6", "--reflective", "0.3", "--ground"],
     "random100k": ["random", "--count", "100000"],
 }
-# The same with light from the directions of their lamps.
+# These scenes again, with directional lights in place of the lamps.
 PARALLEL = ["mirrored flake4", "mirrored flake5", "mirrored flake6", "random100k"]
 
 
 def make(build, scene, name):
-    """Writes the scene of a row, and lights it by directions if that is its last word."""
+    """Writes the scene of a row; makes its lights directional if the name ends in "parallel"."""
     subprocess.run([f"{build}/packtrace", "generate", *SCENES[name.removesuffix(", parallel")], "-o", scene],
                    check=True)
     if not name.endswith(", parallel"):

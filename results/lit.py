@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
-"""What RayScene::lit() is worth: results/lit.json.
+"""The gain of RayScene::lit(): results/lit.json.
 
-Rates of points asked about, one thread, by lit() and by occluded() with rays between the same points and the
-light, in one run of packtrace_bench that takes all of them by turns in random order.
+Rates of queried points on one thread, by lit() and by occluded() with rays between the same points and the
+light. One run of packtrace_bench alternates between all of them in random order.
 
 usage: results/lit.py BUILD [REPETITIONS]
 BUILD is a build folder with `bench/packtrace_bench`.

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
-"""Writes results/lone_rays.json: rates of a caller's rays through hierarchies of few overlapping
-spheres, and of a flake, where rays go one by one: in `exact`, in double precision and by an earlier
-build, by turns, on one thread.
+"""Writes results/lone_rays.json: rates of a caller's rays through bvhs of few overlapping spheres,
+and through the bvh of a flake, where rays are traced one by one. Runs in `exact`, in double precision
+and by an earlier build alternate, on one thread.
 
 usage: results/lone_rays.py BUILD BEFORE [REPETITIONS]
 BUILD and BEFORE are build folders with `bench/scaling/packtrace_rays`.

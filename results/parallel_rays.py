@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
-"""What rays of one direction from places far apart cost: results/parallel_rays.json.
+"""The cost of parallel rays with distant origins: results/parallel_rays.json.
 
-Times of frames lit from directions, of 512 x 512 pixels, and of closest hits of 200 000 rays of a caller's that
-are parallel and start anywhere, one thread, avx512, in the default mode, by turns with an earlier build.
+Times of frames of 512 x 512 pixels with directional lights, and of closest hits of a caller's 200 000 parallel
+rays with any origins: one thread, avx512, default mode. Runs alternate with an earlier build.
 
 usage: results/parallel_rays.py BUILD BEFORE [REPETITIONS]
 BUILD and BEFORE are build folders with `packtrace`.
@@ -29,7 +29,7 @@ def frame(build, scene, folder):
 
 
 def rays(build, scene, folder):
-    """Seconds, those of reading and writing included."""
+    """Seconds, including reading and writing."""
     begin = time.perf_counter()
     subprocess.run([f"{build}/packtrace", "intersect", scene, f"{folder}/rays.csv", "--precision", "single",
                     "--threads", "1", "--isa", "avx512", "-o", f"{folder}/hits.csv"], capture_output=True, check=True)

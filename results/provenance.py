@@ -1,11 +1,11 @@
 #!/usr/bin/env python3
-"""Where a file of results comes from, and how it is put in its place.
+"""The origin of a results file, and its writing.
 
-As a program it exits 1 where files of the program differ from the commit that is checked out; with
+Run as a program, it exits 1 if files of the program differ from the commit that is checked out. With
 `load_after FILE` it adds the machine's load to the context of a JSON file.
 
-Results are of a clean commit. PACKTRACE_ALLOW_DIRTY=1 in the environment allows another state, say to
-try a script; the file then names its commit with "-dirty" at the end."""
+Results belong to a clean commit. PACKTRACE_ALLOW_DIRTY=1 in the environment permits another state, for
+example to try a script; the file then names its commit with "-dirty" at the end."""
 import json
 import os
 import pathlib
@@ -17,7 +17,7 @@ FOLDER = pathlib.Path(__file__).resolve().parent
 
 
 def check_commit(described):
-    """Ends the script where a commit's name says that files differed from it, unless allowed."""
+    """Ends the script if a commit's name says that files differed from it, unless allowed."""
     if described.endswith("-dirty") and os.environ.get("PACKTRACE_ALLOW_DIRTY") != "1":
         sys.exit(f"{pathlib.Path(sys.argv[0]).name}: files differ from the commit, so no result can "
                  "name what it is of; commit them and build again, or set PACKTRACE_ALLOW_DIRTY=1")
@@ -25,8 +25,8 @@ def check_commit(described):
 
 
 def commit(folder=FOLDER):
-    """The commit that is checked out, as builds are stamped with it
-    (cmake/write_build_stamp.cmake); ends the script where files of the program differ from it."""
+    """The commit that is checked out, as in the stamp of builds (cmake/write_build_stamp.cmake). Ends
+    the script if files of the program differ from it."""
     git = ["git", "-C", folder]
     head = subprocess.run([*git, "rev-parse", "--short", "HEAD"], capture_output=True, text=True,
                           check=True).stdout.strip()
@@ -36,7 +36,7 @@ def commit(folder=FOLDER):
 
 
 def commit_of_build(build):
-    """The same of the sources that a build folder was made of."""
+    """As commit(), for the sources of a build folder."""
     cache = (pathlib.Path(build) / "CMakeCache.txt").read_text()
     return commit(re.search(r"^CMAKE_HOME_DIRECTORY:INTERNAL=(.*)$", cache, re.MULTILINE).group(1))
 
@@ -48,13 +48,13 @@ def machine():
 
 
 def kept(name):
-    """What FOLDER/name holds; nothing where there is no such file."""
+    """The contents of FOLDER/name; {} if there is no such file."""
     path = FOLDER / name
     return json.loads(path.read_text()) if path.is_file() else {}
 
 
 def write(report, name):
-    """Writes FOLDER/name whole or not at all."""
+    """Writes FOLDER/name completely or not at all."""
     target = FOLDER / name
     part = target.with_suffix(".json.part")
     part.write_text(json.dumps(report, indent=1) + "\n")

@@ -1,17 +1,17 @@
-"""How runs are measured by turns, and compared."""
+"""Measures alternating runs, and compares them."""
 import re
 import statistics
 import subprocess
 
 
 def share(of, over):
-    """Median and range of the ratios of runs that stood next to each other."""
+    """Median and range of the ratios of adjacent runs."""
     ratios = [a / b for a, b in zip(of, over)]
     return {"median": statistics.median(ratios), "lowest": min(ratios), "highest": max(ratios)}
 
 
 def by_turns(ways, repetitions, measure):
-    """For each name in `ways` what `measure` gave of its value, once a turn."""
+    """For each name in `ways`, the results of `measure` for its value, one per turn."""
     found = {name: [] for name in ways}
     for _ in range(repetitions):
         for name, way in ways.items():
@@ -20,7 +20,7 @@ def by_turns(ways, repetitions, measure):
 
 
 def frame_milliseconds(build, scene, size, isa, folder, options=()):
-    """How long `render` of a build folder says a square frame took on one thread."""
+    """The time of a square frame on one thread, as reported by `render` of a build folder."""
     command = [f"{build}/packtrace", "render", scene, "--size", f"{size}x{size}", "--threads", "1", "--isa",
                isa, "-o", f"{folder}/frame.pfm", *options]
     done = subprocess.run(command, capture_output=True, text=True, check=True)

@@ -1,14 +1,14 @@
 #!/usr/bin/env python3
-"""Cycles of a frame's kernels beside the instructions they run: results/roofline.json.
+"""Cycles of a frame's kernels beside their instructions: results/roofline.json.
 
-Samples frames (perf, by the processor's clock) and holds each function against the counts of
+Samples frames (perf, by the processor's clock) and compares each function with the counts of
 results/instructions.json, which must be of the same commit: one thread, avx2, for every 16 pixels.
-Cycles are the samples' time at the clock that a chain of additions shows, one a cycle. Branches taken
-for others and lines of memory that the first-level cache (32 KiB, 8 ways) lacks are valgrind's, of
-all kernels together; its predictor is simpler than a processor's.
+Cycles are the samples' time multiplied by the clock rate; a chain of additions, one per cycle, gives
+that rate. Mispredicted branches and misses of the first-level cache (32 KiB, 8 ways) are simulated by
+valgrind for all kernels together; its predictor is simpler than a processor's.
 
 Usage: results/roofline.py BUILD [FRAMES]
-BUILD is a build folder with `packtrace`. docs/write_figures.py then writes its tables anew.
+BUILD is a build folder with `packtrace`. Afterwards docs/write_figures.py updates the tables.
 """
 import collections
 import pathlib
@@ -60,7 +60,7 @@ def frame(build, scene, folder):
 def cycles(build, scene, frames, clock, folder):
     """Cycles by function, for PIXELS pixels."""
     data = f"{folder}/perf.data"
-    # One recording of all frames; what is not kernels is left out below.
+    # One recording of all frames; the loop below skips samples outside kernels.
     words = " ".join(f"'{word}'" for word in frame(build, scene, folder))
     subprocess.run(["perf", "record", "-e", "cpu-clock", "-F", str(FREQUENCY), "-o", data, "--",
                     "sh", "-c", f"for i in $(seq {frames}); do {words}; done"],
@@ -77,7 +77,7 @@ def cycles(build, scene, frames, clock, folder):
 
 
 def simulated(build, scene, folder):
-    """Mispredicted branches and missed lines of the kernels, for PIXELS pixels."""
+    """Mispredicted branches and cache misses of the kernels, for PIXELS pixels."""
     raw = pathlib.Path(folder) / "callgrind"
     subprocess.run(["valgrind", "--tool=callgrind", "--branch-sim=yes", "--cache-sim=yes",
                     "--D1=32768,8,64", "--compress-strings=no", f"--callgrind-out-file={raw}",

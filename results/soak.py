@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
-"""Writes results/soak.json: random scenes in every way there is, in parts. It goes on behind the last
-part that the file has. What a finding was and how it was mended is entered by hand.
+"""Writes results/soak.json: random scenes traced in every way, in parts. Continues after the last part
+in the file. The cause and the fix of a finding are entered by hand.
 
 usage: results/soak.py build/release/packtrace MINUTES [SEED [THREADS]]
 """
@@ -19,7 +19,7 @@ FINDING = re.compile(r"^scene (\d+): (.*)$", re.M)
 
 
 def part_of(output, first, seconds, built):
-    """What a run of `packtrace soak` says, and what it found."""
+    """The counts of a run of `packtrace soak`, and its findings."""
     scenes, refused = map(int, COUNTS.search(output).groups())
     part = {"commit": built, "first": first, "scenes": scenes, "refused": refused,
             "seconds": round(seconds)}

@@ -1,10 +1,10 @@
 #!/usr/bin/env python3
-"""Writes results/stress.json: twenty million extreme rays in each mode, family by family, without their
-times. With --exact, results/stress_exact.json: half as many in the default mode alone, with its verdict.
+"""Writes results/stress.json: twenty million extreme rays in each mode, by family, without their times.
+With --exact, writes results/stress_exact.json: half as many rays in the default mode only, with its verdict.
 
 usage: results/stress.py [--exact] [--isa=NAME] build/release/packtrace [RAYS_OF_EACH_FAMILY]
-The instruction set is avx512, unless another is named (the kept files are of avx2): those with FMA differ
-in nothing but their times.
+The default instruction set is avx512 (the committed files are of avx2). Instruction sets with FMA differ
+only in their times.
 """
 import json
 import subprocess
@@ -14,7 +14,7 @@ from provenance import commit, write
 
 ISA = next((argument[6:] for argument in sys.argv if argument.startswith("--isa=")), "avx512")
 COMMAND = ["--precision", "single", "--kernel", "packet", "--kernel", "textbook", "--isa", ISA]
-LEFT_OUT = ("ns_per_ray", "pareto")  # of use only from a machine at rest
+LEFT_OUT = ("ns_per_ray", "pareto")  # useful only from an idle machine
 
 
 def families(program):

@@ -12,8 +12,8 @@
 #include <string>
 #include <vector>
 
-// Rays that are aimed at where hits are decided: past silhouettes, along planes, at creases and
-// rims, by 3e-8 to 1e-3 of the size of what they pass.
+// Rays aimed at the places where small errors decide between hit and miss: silhouettes, planes at
+// grazing angles, creases and rims. They pass their target at 3e-8 to 1e-3 of its size.
 namespace packtrace::test {
 
 using lab::StressRandom;
@@ -26,11 +26,11 @@ struct AimedRays {
 
 struct AimedFamily {
     std::string name;
-    /// A scene with that many rays.
+    /// Makes a scene with this number of rays.
     std::function<AimedRays(StressRandom&, int)> make;
 };
 
-/// How far a ray passes what it is aimed at, to either side.
+/// The signed distance between a ray and its target, as a share of the target's size.
 [[nodiscard]] inline double aim_error(StressRandom& random)
 {
     return random.sign() * random.power(3e-8, 1e-3);
@@ -46,13 +46,13 @@ struct AimedFamily {
     return lab::ray_towards(org, org + cosine * towards + sine * lab::across(random, towards));
 }
 
-/// Rays of one origin, or each of its own.
+/// Rays that all start at one origin, or each at its own.
 [[nodiscard]] inline std::vector<StressRay> aim_from(
     StressRandom& random, int count, const std::function<Vec3()>& origin,
     const std::function<StressRay(const Vec3&)>& aim)
 {
     const bool shared = random.below(2) == 0;
-    // The bits that the rays will start with.
+    // Rounded to float, as the kernels get the origin.
     const auto rounded = [&] { return Vec3(glm::vec3(origin())); };
     const Vec3 first = rounded();
     std::vector<StressRay> rays;
@@ -61,7 +61,7 @@ struct AimedFamily {
     return rays;
 }
 
-/// Past the silhouettes of spheres of one size, `far` sizes away at most.
+/// Rays past the silhouettes of spheres of one size, from at most `far` sizes away.
 [[nodiscard]] inline AimedRays past_spheres(StressRandom& random, int count, int spheres,
                                             double far)
 {
@@ -82,7 +82,8 @@ struct AimedFamily {
     return result;
 }
 
-/// In all directions from next to spheres that overlap, on either side of their surfaces.
+/// Rays in all directions that start close to the surfaces of overlapping spheres, inside or
+/// outside.
 [[nodiscard]] inline AimedRays off_spheres(StressRandom& random, int count)
 {
     AimedRays result;
@@ -101,7 +102,7 @@ struct AimedFamily {
     return result;
 }
 
-/// Along the horizon of a ground sphere with balls on it.
+/// Rays along the horizon of a ground sphere with balls on it.
 [[nodiscard]] inline AimedRays past_ground(StressRandom& random, int count)
 {
     AimedRays result;
@@ -118,14 +119,15 @@ struct AimedFamily {
         return center + (radius + random.power(0.01, 30.0)) * up;
     };
     result.rays = aim_from(random, count, above, [&](const Vec3& org) {
-        // In parts of how far the horizon is below the eye, as it is all that a ray can miss by.
+        // The error is a share of the eye's height above the ground: a share of the ground's radius
+        // could exceed that height.
         const double drop = glm::length(org - center) - radius;
         return ray_past(random, org, center, radius + drop * aim_error(random));
     });
     return result;
 }
 
-/// At the circles in which spheres cross each other.
+/// Rays at the circles in which spheres intersect.
 [[nodiscard]] inline AimedRays at_creases(StressRandom& random, int count)
 {
     AimedRays result;
@@ -136,7 +138,7 @@ struct AimedFamily {
     const Vec3 second = first + (first_radius + 0.5 * second_radius) * way;
     result.scene.objects = {lab::sphere_object(first, first_radius),
                             lab::sphere_object(second, second_radius)};
-    // Where the plane of the circle is along the way between the centres.
+    // The height of the circle's plane above the first centre.
     const double apart = glm::length(second - first);
     const double height =
         (apart * apart + first_radius * first_radius - second_radius * second_radius) /
@@ -151,7 +153,7 @@ struct AimedFamily {
     return result;
 }
 
-/// Along planes, of which two cross, at angles of a sine from 3e-8 to 1e-3.
+/// Rays at grazing angles (sines from 3e-8 to 1e-3) to planes, two of which intersect.
 [[nodiscard]] inline AimedRays along_planes(StressRandom& random, int count)
 {
     AimedRays result;
@@ -171,7 +173,7 @@ struct AimedFamily {
     return result;
 }
 
-/// A quadric of any kind, turned, stretched and moved.
+/// A quadric of any kind, rotated, scaled and translated.
 [[nodiscard]] inline Object placed_quadric(StressRandom& random, QuadricKind kind)
 {
     Object object{.surface = packtrace::quadric(kind)};
@@ -188,7 +190,7 @@ struct AimedFamily {
     return Vec3(object.transform * glm::dvec4(own, 1.0));
 }
 
-/// Along tangents of quadrics, moved off or into the surface.
+/// Rays along tangents of quadrics, moved off or into the surface.
 [[nodiscard]] inline AimedRays along_quadrics(StressRandom& random, int count)
 {
     AimedRays result;
@@ -197,7 +199,7 @@ struct AimedFamily {
     result.scene.objects = {object};
     for (int i = 0; i < count; ++i) {
         const Vec3 own = lab::own_surface_point(random, kind);
-        // Tangents by points of the surface near by: no gradient is needed.
+        // A second point of the surface close by gives the tangent, without a gradient.
         const Vec3 at = placed(object, own);
         const auto& c = std::get<Quadric>(object.surface).coefficients;
         const Vec3 gradient(2.0 * c[0] * own.x + c[6], 2.0 * c[1] * own.y + c[7],
@@ -212,7 +214,7 @@ struct AimedFamily {
     return result;
 }
 
-/// At the rims of capped and of open cylinders and cones, from outside and inside.
+/// Rays at the rims of capped and of open cylinders and cones, from outside and inside.
 [[nodiscard]] inline AimedRays at_rims(StressRandom& random, int count)
 {
     AimedRays result;

@@ -8,16 +8,16 @@
 #include <span>
 #include <vector>
 
-// Ways to break a scene, each with one fault.
+// Ways to break a scene, each with exactly one fault.
 namespace packtrace::test {
 
 struct Break {
     const char* name;
-    bool has_text;  ///< whether the language can say it, so that the reader refuses it, too
+    bool has_text;  ///< the scene language can express the fault, and the reader refuses it
     void (*apply)(RandomScene&);
 };
 
-/// The last object, made one of this surface with nothing else to say.
+/// Replaces the last object by one with this surface and default values.
 inline Object& last_as(RandomScene& random, const Surface& surface)
 {
     Object& object = random.scene.objects.back();
@@ -42,13 +42,13 @@ void shade_all(RandomScene& random, Illumination illumination, const Model& mode
     }
 }
 
-/// A quadric that says nothing but its kind.
+/// A quadric with a kind and default values.
 inline Quadric bare(QuadricKind kind)
 {
     return {.kind = kind};
 }
 
-/// Numbers that no key takes.
+/// A number that every key refuses.
 inline double unreal(RandomScene& random)
 {
     constexpr double inf = std::numeric_limits<double>::infinity();

@@ -6,10 +6,10 @@
 #include <cstdlib>
 #include <string>
 
-// A real browser without a window, for pages the program writes.
+// Opens pages that the program writes in a real browser without a window.
 namespace packtrace::test {
 
-/// The browser's name along PATH; empty where there is none.
+/// The browser's name along PATH; empty if there is none.
 [[nodiscard]] inline std::string browser()
 {
     for (const char* name : {"chromium", "chromium-browser", "google-chrome"})
@@ -20,11 +20,11 @@ namespace packtrace::test {
 }
 
 struct PageResult {
-    std::string dom;      ///< after the page's scripts
-    std::string console;  ///< what they said, errors and all
+    std::string dom;      ///< the document after the page's scripts have run
+    std::string console;  ///< messages of the page's scripts, including errors
 };
 
-/// Opens a file. Without a sandbox, which root and containers do not have.
+/// Opens a file without the browser's sandbox, which does not run as root or in containers.
 [[nodiscard]] inline PageResult open_page(const std::string& name, const TempFolder& folder,
                                           const std::string& file)
 {

@@ -1,17 +1,17 @@
 #!/bin/bash
 # build_tsan_tbb.sh FOLDER
 #
-# Builds oneTBB with clang's thread sanitizer, from the source package of the version that is
-# installed, and prints the folder that holds libtbb.so.12. Programs that load it instead of the
-# system's show the sanitizer how tasks follow each other; by the system's, every result of a task
-# looks like a race. Needs Debian or Ubuntu, dpkg-dev, cmake and ninja; nothing is installed.
+# Builds oneTBB with clang's thread sanitizer, from the source package of the installed version, and
+# prints the folder that contains libtbb.so.12. A program that loads this library shows the
+# sanitizer in which order tasks run. With the system's library, every result of a task looks like a
+# race. Needs Debian or Ubuntu, dpkg-dev, cmake and ninja; installs nothing.
 set -euo pipefail
 folder=$1
 version=$(dpkg-query -W -f '${source:Package}=${source:Version}' libtbb-dev)
 mkdir -p "$folder"
 folder=$(readlink -f "$folder")
 
-# The sources' lists of the system, with source packages.
+# The system's source lists, with source packages enabled.
 apt_for_sources() {
     apt-get -o Dir::State="$folder/apt" -o Dir::Cache="$folder/apt/cache" \
         -o Dir::State::status=/var/lib/dpkg/status -o Dir::Etc::sourcelist="$folder/apt/list" \

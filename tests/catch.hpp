@@ -1,6 +1,6 @@
 #pragma once
 
-// Catch2 3 (Debian 13, Ubuntu 24.04) and 2.13 (Debian 12) under one name.
+// One header for Catch2 3 (Debian 13, Ubuntu 24.04) and 2.13 (Debian 12).
 #if __has_include(<catch2/catch_all.hpp>)
 #include <catch2/catch_all.hpp>
 namespace packtrace {

@@ -1,15 +1,15 @@
 #!/bin/sh
 # check_api_comments.sh DOXYGEN DOXYFILE
 #
-# Doxygen reads the public headers without a warning, and finds a comment that names a parameter
-# which its function has not.
+# Doxygen reads the public headers without a warning, and it detects a comment that names a
+# parameter its function does not have.
 set -eu
 doxygen=$1
 doxyfile=$2
 folder=$(mktemp -d)
 trap 'rm -rf "$folder"' EXIT
 
-# warnings [SETTING]: what Doxygen warns of. The reference itself is not kept.
+# warnings [SETTING]: prints Doxygen's warnings and discards its pages.
 warnings() {
     { cat "$doxyfile"
       printf '%s\n' "OUTPUT_DIRECTORY = $folder" "WARN_LOGFILE = $folder/warnings.txt" "$@"

@@ -2,11 +2,11 @@
 # check_arm.sh [--build FOLDER] [--x86 PROGRAM] [CTEST OPTION…]
 #
 # Builds packtrace for 64-bit Arm with Debian's cross compiler and runs the quick tests under
-# qemu-aarch64. With --x86, a packtrace of this machine, it also renders pictures with both: they must
-# be the same, bit for bit, if this machine has fused multiply-add. FOLDER (default build/arm) keeps
-# the packages for Arm and what is built. Installs on Debian and Ubuntu the cross compiler and the
-# emulator, where they are missing; the packages for Arm are unpacked into FOLDER and nothing else of
-# the machine changes.
+# qemu-aarch64. With --x86, a packtrace built for this machine, it also renders pictures with both
+# programs: if this machine has fused multiply-add, the pictures must agree bit for bit. FOLDER
+# (default build/arm) keeps the Arm packages and the build. On Debian and Ubuntu the script installs
+# the cross compiler and the emulator if they are missing. It unpacks the Arm packages into FOLDER
+# and changes nothing else on the machine.
 set -euo pipefail
 source=$(dirname "$(dirname "$(readlink -f "$0")")")
 build=$source/build/arm
@@ -32,7 +32,7 @@ install_tools() {
         apt-get install -y --no-install-recommends "${missing[@]}"
 }
 
-# apt with a list of packages of its own, as on an empty machine of the other kind.
+# apt with its own list of packages, as on an empty Arm machine.
 apt_for_arm() {
     local state=$build/apt
     mkdir -p "$state/lists/partial" "$state/cache/archives/partial"
@@ -56,15 +56,14 @@ unpack_packages() {
     touch "$sysroot/.complete"
 }
 
-# The two kinds of machine must not differ in any bit, where the one that is not Arm has fused
-# operations.
+# The pictures of both machines must agree in every bit if the x86 machine has fused operations.
 compare_pictures() {
     local work scene way
     work=$(mktemp -d)
     for scene in "$source"/scenes/*.scene; do
         for way in "single --accuracy exact" "single --accuracy fast" double; do
             for program in "$x86" "$build/packtrace_emulated"; do
-                # Options are words.
+                # $way must split into words.
                 # shellcheck disable=SC2086
                 "$program" render "$scene" --size 96x72 --precision $way -q \
                     -o "$work/$(basename "$program").pfm"
@@ -78,7 +77,7 @@ compare_pictures() {
 
 install_tools
 unpack_packages
-# Emulated, pages that nobody reads cost: no man pages, no installation.
+# In emulation, files that no test reads cost time: no man pages, no installation.
 cmake -S "$source" -B "$build" -G Ninja \
     -DCMAKE_TOOLCHAIN_FILE="$source/cmake/aarch64-linux-gnu.cmake" -DPACKTRACE_SYSROOT="$sysroot" \
     -DCMAKE_BUILD_TYPE=Release -DCMAKE_CXX_FLAGS_RELEASE="-O2 -DNDEBUG" -DCMAKE_UNITY_BUILD=ON \

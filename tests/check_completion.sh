@@ -1,7 +1,8 @@
 #!/bin/sh
 # check_completion.sh PACKTRACE
 #
-# bash, zsh and fish complete the words of the program by the scripts that it prints.
+# bash, zsh and fish complete the program's words with the completion scripts that the program
+# prints.
 set -u
 packtrace=$1
 folder=$(mktemp -d) || exit 1
@@ -15,11 +16,11 @@ for shell in bash zsh fish; do
     [ -s "$folder/completion.$shell" ] || { echo "no completion for $shell"; exit 1; }
 done
 
-# Each prints what may stand for the last word of a line, one a line.
+# Each script prints the candidates for the last word of a line, one per line.
 cat >"$folder/complete.bash" <<'TEXT'
 source completion.bash
 line=$1
-# As readline splits it.
+# Splits the line as readline does.
 mapfile -t COMP_WORDS < <(sed -e 's/=/ = /g' <<<"$line" | xargs -n 1; [[ $line != *\  ]] || echo)
 COMP_CWORD=$((${#COMP_WORDS[@]} - 1))
 _packtrace
@@ -29,7 +30,7 @@ cat >"$folder/complete.fish" <<'TEXT'
 source completion.fish
 complete -C $argv[1] | string replace -r '\t.*' ''
 TEXT
-# A terminal of zsh's own, in which the key for a list of all choices is typed.
+# Opens a pseudo-terminal for zsh and types the key that lists all choices.
 cat >"$folder/complete.zsh" <<'TEXT'
 zmodload zsh/zpty
 zpty shell 'PS1= TERM=dumb zsh -f -i'
@@ -39,7 +40,7 @@ zpty -w shell 'LISTMAX=1000; print REA""DY'
 zpty -r shell output '*READY*'
 zpty -w -n shell "$1"$'\t'
 zpty -r shell output '*LISTED*'
-# But for the line itself.
+# Without the line itself.
 print -r -- $output | grep -v 'packtrace '
 zpty -d shell
 TEXT
@@ -51,7 +52,7 @@ complete() {
     esac
 }
 
-# completes LINE WORD…: each shell offers the words, and for `!WORD` does not.
+# completes LINE WORD…: checks that each shell offers every WORD, and for `!WORD` that it does not.
 completes() {
     line=$1
     shift
@@ -74,7 +75,7 @@ completes 'packtrace ren' render '!compare'
 completes 'packtrace render --acc' accuracy '!traversal'
 completes 'packtrace render --accuracy ' fast exact '!scene'
 completes 'packtrace render --accuracy=' fast exact '!scene'
-# Those of `packtrace info`, whether they run here or not.
+# All instruction sets of `packtrace info`, whether they run here or not.
 isas=$("$packtrace" info | sed -n '/^instruction set/,/^$/s/^\([a-z0-9_]*\)  .*/\1/p')
 completes 'packtrace render --isa ' auto $isas '!scene'
 completes 'packtrace render --width ' 16 '!scene'
@@ -93,7 +94,7 @@ completes 'packtrace render --size ' '!scene'
 completes 'packtrace generate ' sphereflake lattice '!render'
 completes 'packtrace generate lattice --e' edge '!depth'
 
-# Every long option of every command's help.
+# Every long option in the help of every command.
 commands=$("$packtrace" --help | sed -n '/^S[Uu][Bb]/,$s/^  \([a-z][a-z]*\) .*/\1/p')
 for command in $commands; do
     options=$("$packtrace" "$command" --help | sed -n 's/^  \(-.,\)\{0,1\}--\([a-z0-9-]*\).*/\2/p')

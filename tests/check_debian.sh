@@ -1,19 +1,20 @@
 #!/bin/bash
 # check_debian.sh SUITE [--root FOLDER] [--packages FOLDER] [CMAKE OPTION…]
 #
-# Holds docs/library.md against a fresh Debian, in folders that it removes afterwards. SUITE is
-# bookworm (Debian 12) or trixie (13). Needs root, and debootstrap or a FOLDER with a fresh system.
-#   1. Sources: installs what ./run install names, builds, installs, and builds and runs a program
-#      of a user by find_package, pkg-config, and FetchContent, all compiled.
-#      The Python package is built and installed with the rest, and runs its page's programs.
+# Checks docs/library.md on a fresh Debian, in folders that it removes afterwards. SUITE is bookworm
+# (Debian 12) or trixie (13). Needs root, and either debootstrap or a FOLDER with a fresh system.
+#   1. Sources: installs the packages that ./run install names, builds and installs packtrace, and
+#      builds and runs a user's program by find_package, pkg-config, and FetchContent, each
+#      compiled. Also builds and installs the Python package, and runs the programs of its page.
 #   2. Packages: makes them there, installs them on a second fresh system, runs the program, and
-#      builds and runs a user's there; the Python package likewise. With --packages FOLDER, packages
-#      that are there already, and no step 1.
-# Options go to CMake, such as -DPACKTRACE_ISAS=avx2. Objects are taken from CCACHE_DIR, where it is
-# set; CMAKE_BUILD_PARALLEL_LEVEL says how many are made at a time. Not a part of ctest: it takes as long as all of packtrace takes to build, twice.
+#      builds and runs a user's program there, with the Python package too. With --packages FOLDER
+#      it uses existing packages and skips step 1.
+# Other options go to CMake, such as -DPACKTRACE_ISAS=avx2. If CCACHE_DIR is set, object files come
+# from this cache. CMAKE_BUILD_PARALLEL_LEVEL limits parallel compilation. Not a part of ctest: the
+# script builds all of packtrace twice.
 set -euo pipefail
 [ "$(id -u)" = 0 ] || { echo "check_debian.sh: needs root, for chroot" >&2; exit 2; }
-# Mounts of its own, which end with it.
+# Private mounts, which end with this script.
 [ -n "${PACKTRACE_UNSHARED:-}" ] || PACKTRACE_UNSHARED=1 exec unshare --mount --propagation private \
     "$BASH" "$0" "$@"
 
@@ -31,14 +32,14 @@ while [ $# -gt 0 ]; do
     esac
 done
 work=$(mktemp -d)
-# Nothing of the machine's own may be below when it goes.
+# Unmounts first, so that nothing of the machine itself is removed.
 clean_up() {
     umount -R "$work"/*/proc "$work"/*/ccache 2>/dev/null || true
     rm -rf --one-file-system "$work"
 }
 trap clean_up EXIT
 
-# fresh NAME: a fresh system in $work/NAME, with this machine's way to Debian's packages.
+# fresh NAME: makes a fresh system in $work/NAME, with this machine's access to Debian's packages.
 fresh() {
     local system=$work/$1
     if [ -n "$root" ]; then
@@ -50,13 +51,13 @@ fresh() {
     cp /etc/resolv.conf /etc/hosts "$system/etc/"
     apt-config dump Acquire::http Acquire::https >"$system/etc/apt/apt.conf.d/90machine"
     echo 'Dpkg::Use-Pty "0";' >>"$system/etc/apt/apt.conf.d/90machine"
-    # It need not outlive a power cut; dpkg is ten times as quick.
+    # This system need not survive a power cut; without syncing, dpkg is ten times as fast.
     echo force-unsafe-io >"$system/etc/dpkg/dpkg.cfg.d/unsafe-io"
     mount -t proc proc "$system/proc"
     inside "$1" apt-get update -qq
 }
 
-# inside NAME COMMAND…: runs it in the system, with nothing of this machine's environment.
+# inside NAME COMMAND…: runs a command in the system, without this machine's environment.
 inside() {
     local system=$work/$1 cache=()
     shift
@@ -73,7 +74,7 @@ step() {
     echo "== $suite: $*"
 }
 
-# uses NAME WAY [OPTION…]: a user's project is set up, built and run in the system.
+# uses NAME WAY [OPTION…]: configures, builds and runs a user's project in the system.
 uses() {
     local name=$1 way=$2
     shift 2

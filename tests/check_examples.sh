@@ -1,8 +1,8 @@
 #!/bin/sh
 # check_examples.sh EXAMPLE PROGRAM [ARGUMENT…]
 #
-# The EXAMPLE of examples/ runs, as PROGRAM with these arguments, in a folder of its own, and leaves
-# what it says it does.
+# Runs EXAMPLE of examples/ as PROGRAM with these arguments, in a folder of its own, and checks the
+# files and the output that it promises.
 set -eu
 example=$1
 shift
@@ -17,7 +17,7 @@ fail() {
 
 "$@" >printed 2>&1 || fail "$example fails: $(cat printed)"
 
-# picture FILE: is a PNG, and no tiny one.
+# picture FILE: checks that the file is a PNG of more than a few bytes.
 picture() {
     [ "$(head -c 4 "$1" | tail -c 3)" = PNG ] && [ "$(wc -c <"$1")" -gt 2000 ] ||
         fail "$example leaves no picture $1: $(ls -l)"
@@ -31,7 +31,7 @@ first_hit)
     ;;
 million_rays)
     # t counts in lengths of the direction (…, …, 4): the front of the lattice's first layer, whose
-    # spheres of radius 0.03 lie at z = 0.05, is 2.02 ahead of the origin.
+    # spheres of radius 0.03 are at z = 0.05, is 2.02 ahead of the origin.
     grep -q '^[0-9]* of 1000000 rays hit$' printed && grep -q 'at t = 0\.50[0-9]*, between' printed ||
         fail "$example prints: $(cat printed)"
     ;;

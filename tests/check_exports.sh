@@ -1,8 +1,8 @@
 #!/bin/sh
 # check_exports.sh NM OBJDUMP LIBRARY HEADERS
 #
-# The shared library exports what public headers mark with PACKTRACE_API, all of it and nothing
-# else, and its name carries the versions that it may stand in for.
+# The shared library exports exactly the functions that public headers mark with PACKTRACE_API, and
+# its name contains the versions that it is compatible with.
 set -u
 nm=$1
 objdump=$2
@@ -11,17 +11,17 @@ headers=$4
 folder=$(mktemp -d) || exit 1
 trap 'rm -rf "$folder"' EXIT
 
-# Names of functions: what stands before the first parenthesis.
+# Names of functions: the text before the first parenthesis.
 sed -n 's/.*PACKTRACE_API[^(]*[ *&]\(operator=\|[~A-Za-z_0-9]*\)(.*/\1/p' "$headers"/*.hpp |
     sort -u >"$folder/offered"
-# "packtrace::Image<float> packtrace::render<float>(packtrace::Scene const&)" is of render.
+# "packtrace::Image<float> packtrace::render<float>(packtrace::Scene const&)" becomes render.
 "$nm" -DC --defined-only "$library" | sed 's/^[^ ]* [A-Za-z] //' >"$folder/symbols"
 grep -v '^\(typeinfo\|typeinfo name\|vtable\) for packtrace::[A-Za-z]*Error$' "$folder/symbols" |
     sed -e ':again' -e 's/<[^<>]*>//g' -e 'tagain' -e 's/(.*//' -e 's/\[abi:cxx11\]//' -e 's/.*:://' |
     sort -u >"$folder/exported"
 
 failed=0
-# A declaration at the start of a line that is neither marked nor defined in the header.
+# Declarations at the start of a line that are neither marked nor defined in the header.
 unmarked=$(grep -nE '^(\[\[nodiscard\]\]|void|bool|int|double) .*\(' "$headers"/*.hpp |
     grep -v -e PACKTRACE_API -e ' inline ' -e ' Image<To> convert(')
 if [ -n "$unmarked" ]; then

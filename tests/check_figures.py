@@ -1,5 +1,5 @@
-"""check_figures.py ROOT: every figure in the documents is that of its file, and the check finds what
-is not. Faults are planted one by one in a copy of the documents and results."""
+"""check_figures.py ROOT: every figure in the documents agrees with its file, and the check detects
+figures that do not. The test plants faults one by one in a copy of the documents and results."""
 import json
 import pathlib
 import re
@@ -12,7 +12,7 @@ ROOT = pathlib.Path(sys.argv[1]).resolve()
 
 
 def check(root):
-    """Exit code and output of the check."""
+    """The exit code and the output of the check."""
     done = subprocess.run([sys.executable, "-B", ROOT / "docs/write_figures.py", "--check", root],
                           capture_output=True, text=True)
     return done.returncode, done.stdout + done.stderr
@@ -26,7 +26,7 @@ def rewrite(path, change):
 
 
 def change_digit(copy):
-    """In a table of docs/peers.md: the first digit of its last row."""
+    """Changes the first digit in the last row of a table of docs/peers.md."""
     def change(text):
         end = text.index("<!-- end -->")
         row = text.rindex("\n|", 0, end)

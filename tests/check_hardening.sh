@@ -1,10 +1,10 @@
 #!/bin/sh
 # check_hardening.sh READELF COMMANDS LEVEL BINARY…
 #
-# Programs and libraries lie at random addresses, bind their symbols at the start and keep the table
-# of them read-only. COMMANDS, a compile_commands.json, gives the flags that guard frames and copies
-# (_FORTIFY_SOURCE of LEVEL; none where LEVEL is empty) to each source of the library and the
-# program, and to no kernel.
+# Programs and libraries load at random addresses, bind their symbols at the start and make the
+# symbol table read-only. COMMANDS is a compile_commands.json. In it, every source of the library
+# and the program has the flags that guard stack frames and copies (_FORTIFY_SOURCE of LEVEL; none
+# if LEVEL is empty), and no kernel has them.
 set -u
 readelf=$1
 commands=$2
@@ -21,7 +21,7 @@ for binary in "$@"; do
     symbols=$("$readelf" -W --dyn-syms "$binary")
     printf '%s\n' "$symbols" | grep -q __stack_chk_fail || { echo "$binary: guards no frame"; failed=1; }
 done
-# A small module may copy nothing that libc checks; the program, named first, does.
+# A small module may have no copy for libc to check; the program, named first, has some.
 if [ -n "$level" ] && ! "$readelf" -W --dyn-syms "$1" | grep -Eq '__[a-z]+_chk@'; then
     echo "$1: checks no copy"
     failed=1

@@ -1,13 +1,13 @@
 #!/bin/sh
 # check_install.sh WAY CMAKE CXX BUILD SOURCE ISA…
 #
-# Programs of users get packtrace in the WAY named, set nothing else, and run:
-#   prefix                    no program yet: installs BUILD into BUILD/tests/prefix
-#   find_package, pkg_config  from there
-#   examples                  from there, the examples as a project of their own
+# Users' programs get packtrace in the given WAY, set nothing else, and run:
+#   prefix                    installs BUILD into BUILD/tests/prefix, without a user's program
+#   find_package, pkg_config  from this prefix
+#   examples                  from this prefix, with the examples as a project of their own
 #   add_subdirectory, fetch_content
-#                             from SOURCE, linked with the library that BUILD holds already: their
-#                             own, for instruction sets ISA…, would take minutes to compile
+#                             from SOURCE, linked with the library already in BUILD: compiling
+#                             another one for the instruction sets ISA… would take minutes
 set -eu
 way=$1
 cmake=$2
@@ -20,7 +20,7 @@ consumer=$source/tests/consumer
 prefix=$build/tests/prefix
 folder=$(mktemp -d)
 trap 'rm -rf "$folder"' EXIT
-# What the user of this machine has set must not help.
+# Settings of this machine's user must not influence the result.
 unset CXXFLAGS CPPFLAGS LDFLAGS CMAKE_PREFIX_PATH CMAKE_BUILD_TYPE PKG_CONFIG_PATH LD_LIBRARY_PATH
 
 fail() {
@@ -28,14 +28,14 @@ fail() {
     exit 1
 }
 
-# Runs a command, which may print where it fails only.
+# Runs a command and prints its output only if it fails.
 quietly() {
     "$@" >"$folder/log" 2>&1 || fail "$*: $(cat "$folder/log")"
 }
 
 install_prefix() {
     rm -rf "$prefix"
-    # Nothing is left of what is removed again, but for folders that others use.
+    # Uninstalling leaves no files, and only folders that others use.
     quietly "$cmake" --install "$build" --prefix "$prefix"
     quietly "$cmake" -D MANIFEST="$build/install_manifest.txt" -P "$source/cmake/uninstall.cmake"
     ! find "$prefix" ! -type d -o -name 'packtrace*' | grep . || fail "uninstall leaves these"
@@ -47,12 +47,12 @@ install_prefix() {
         fish/vendor_completions.d/packtrace.fish; do
         [ -s "$prefix/share/$file" ] || fail "no share/$file is installed"
     done
-    # A man page for the program and each command.
+    # A man page for the program and for each command.
     for command in $("$prefix/bin/packtrace" --help |
         sed -n '/^S[Uu][Bb]/,$s/^  \([a-z][a-z]*\) .*/-\1/p') ''; do
         [ -s "$prefix/share/man/man1/packtrace$command.1" ] || fail "no packtrace$command.1 is installed"
     done
-    # The program for many ranks, where it is built, and its pages.
+    # The MPI program with its pages, if it is built.
     if [ -x "$build/packtrace-mpi" ]; then
         quietly "$prefix/bin/packtrace-mpi" render "$prefix/share/packtrace/scenes/four_spheres.scene" \
             --size 16x16 -o "$folder/ranks.png"
@@ -64,16 +64,16 @@ install_prefix() {
             [ "$(grep -c "^packtrace-mpi$page " "$file")" = 1 ] || fail "$file has another name: $(cat "$file")"
         done
     fi
-    # What runs packtrace does without MPI.
+    # The component `runtime` works without MPI.
     quietly "$cmake" --install "$build" --prefix "$folder/runtime" --component runtime
     [ -x "$folder/runtime/bin/packtrace" ] || fail "the component runtime lacks packtrace"
     ! find "$folder/runtime" -name '*mpi*' | grep . || fail "the component runtime has these"
     ! ldd "$folder/runtime/bin/packtrace" | grep -i libmpi || fail "packtrace needs MPI"
-    # An installation moves as a whole.
+    # An installation can be moved as a whole.
     ! grep -rlI -e "$build" -e "$source" "$prefix" || fail "these files name the build folder"
 }
 
-# configure NAME [OPTION…]: sets up the user's project in the folder NAME.
+# configure NAME [OPTION…]: configures the user's project in the folder NAME.
 configure() {
     name=$1
     shift
@@ -82,7 +82,7 @@ configure() {
     ! grep -i warning "$folder/log" || fail "cmake $* warns: $(cat "$folder/log")"
 }
 
-# runs PROGRAM: it works, and is of the shared library or not.
+# runs PROGRAM COUNT: checks that the program works and needs COUNT (0 or 1) shared libpacktrace.
 runs() {
     quietly "$1"
     needed=$(ldd "$1" | grep -c libpacktrace || true)
@@ -93,16 +93,16 @@ find_package() {
     for kind in default shared static; do
         components=$kind
         [ $kind != default ] || components=
-        # What the library is built with is needed to link the static one alone.
+        # Only the static library needs the library's own dependencies for linking.
         disabled=
         [ $kind = static ] || disabled=-DCMAKE_DISABLE_FIND_PACKAGE_TBB=ON
         configure $kind -DCMAKE_PREFIX_PATH="$prefix" -DCOMPONENTS=$components $disabled
         quietly "$cmake" --build "$folder/$kind"
         runs "$folder/$kind/consumer" "$([ $kind = static ] && echo 0 || echo 1)"
     done
-    # An optional component that is missing leaves the package usable.
+    # A missing optional component leaves the package usable.
     configure optional -DCMAKE_PREFIX_PATH="$prefix" "-DCOMPONENTS=OPTIONAL_COMPONENTS;wrong"
-    # What can't be had is said.
+    # A component or version that is not available causes an error message.
     for options in "-DCOMPONENTS=wrong" "-DVERSION=0.1" "-DVERSION=0.9"; do
         ! "$cmake" -S "$consumer" -B "$folder/wrong" -DCMAKE_CXX_COMPILER="$cxx" -DWAY="$way" \
             -DCMAKE_PREFIX_PATH="$prefix" "$options" >"$folder/log" 2>&1 ||
@@ -118,7 +118,7 @@ pkg_config() {
     PKG_CONFIG_PATH=$(dirname "$(find "$prefix" -name packtrace.pc)")
     export PKG_CONFIG_PATH
     libraries=$(pkg-config --variable=libdir packtrace)
-    # Flags are words.
+    # The flags must split into words.
     # shellcheck disable=SC2046
     quietly "$cxx" -c "$consumer/main.cpp" -o "$folder/main.o" $(pkg-config --cflags packtrace)
     # shellcheck disable=SC2046
@@ -134,13 +134,13 @@ pkg_config() {
     quietly "$cxx" "$folder/main.o" -o "$folder/static" \
         "$libraries/libpacktrace.a" -Wl,--as-needed $(pkg-config --static --libs packtrace)
     runs "$folder/static" 0
-    # From a folder with a blank in its name, which pkg-config writes for a shell to read.
+    # From a folder with a blank in its name, which pkg-config escapes for a shell.
     ln -s "$prefix" "$folder/a prefix"
     blank=$(PKG_CONFIG_PATH=$folder/a\ prefix/${PKG_CONFIG_PATH#"$prefix"/} pkg-config --cflags --libs packtrace)
     echo "$blank" | grep -q 'a.\{1,2\}prefix' || fail "pkg-config names another folder: $blank"
     eval "quietly \"\$cxx\" \"\$consumer/main.cpp\" -o \"\$folder/blank\" $blank"
     runs "$folder/blank" 1
-    # The first program of the documentation prints what stands there.
+    # The first program of the documentation prints what the page shows.
     sed -n '/^```cpp/,/^```$/{p;/^```$/q}' "$source/docs/library.md" | grep -v '^```' >"$folder/first.cpp"
     sed -n '/^```output/,/^```/p' "$source/docs/library.md" | grep -v '^```' >"$folder/expected"
     # shellcheck disable=SC2046
@@ -164,12 +164,12 @@ examples() {
     (cd "$folder" && quietly ./examples/picture && [ -s picture.png ]) || fail "no picture"
 }
 
-# command_of NAME FILE: the command that makes the FILE in the user's project NAME.
+# command_of NAME FILE: prints the command that makes FILE in the user's project NAME.
 command_of() {
     ninja -C "$folder/$1" -t commands "$2" | tail -n 1
 }
 
-# As a part of another project: compiles the user's program, and links it as that project would.
+# As a part of another project: compiles the user's program and links it as that project would.
 subproject() {
     for kind in static shared; do
         shared=$([ $kind = static ] && echo OFF || echo ON)
@@ -177,7 +177,7 @@ subproject() {
             -DBUILD_SHARED_LIBS="$shared"
         object=CMakeFiles/consumer.dir/main.cpp.o
         quietly ninja -C "$folder/$kind" $object
-        # No flag of packtrace's own is among those of the user.
+        # None of packtrace's own flags reaches the user's program.
         ! command_of $kind $object | grep -e ' -f' -e ' -O' -e ' -W' -e ' -m' ||
             fail "flags of packtrace's own compile the program"
         ninja -C "$folder/$kind" -t commands | grep kernels/table.cpp | grep -q -e ' -O[23] ' ||
@@ -192,13 +192,13 @@ subproject() {
     done
 }
 
-# macros_of COMMAND: what a command that compiles predefines.
+# macros_of COMMAND: prints the macros that a compile command predefines.
 macros_of() {
     sh -c "${1%% -MD *} -dM -E -x c++ /dev/null"
 }
 
-# In a project that asks for less exact numbers, and for this processor alone, packtrace's own sources
-# are compiled as ever.
+# A project may ask for less exact arithmetic, and for this processor only. packtrace's own sources
+# are still compiled with their own flags.
 foreign_flags() {
     configure foreign -DPACKTRACE_SOURCE="$source" -DPACKTRACE_ISAS="$isas" \
         "-DFLAGS=-Ofast;-ffast-math;-march=native;-flto"

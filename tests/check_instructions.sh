@@ -1,10 +1,10 @@
 #!/bin/sh
 # check_instructions.sh OBJDUMP OBJCOPY NAME FILE...
 #
-# GCC 12 turns a*b-c, a*b+c into fmaddsub whatever -ffp-contract says, which rounds otherwise
-# than the source: no file may hold one. And the objects named sse42 and host, which is all but
-# the kernels, must run without AVX. Those named one_lane, which others are compared with, trace one
-# ray at a time.
+# GCC 12 may turn a*b-c, a*b+c into fmaddsub in spite of -ffp-contract, and fmaddsub rounds
+# differently from the source: no file may contain one. The objects named sse42 and host (everything
+# but the kernels) must run without AVX. The objects named one_lane, a baseline for comparisons,
+# trace one ray at a time.
 set -u
 objdump=$1
 objcopy=$2
@@ -12,8 +12,8 @@ name=$3
 shift 3
 
 [ $# -gt 0 ] || { echo "no files for $name"; exit 1; }
-# Without symbols: objdump goes through all of a file's for each of its sections, which takes ten times as
-# long as the rest.
+# Strips symbols: objdump searches all symbols of a file for each of its sections, which takes ten
+# times as long as the rest.
 folder=$(mktemp -d) || exit 1
 trap 'rm -rf "$folder"' EXIT
 number=0
@@ -22,10 +22,10 @@ for file in "$@"; do
     "$objcopy" --strip-all "$file" "$folder/$number.o" || exit 1
 done
 
-# Bytes, not letters of a language: sixty megabytes of text take a third of the time.
+# Treats the text as bytes: sixty megabytes then take a third of the time.
 LC_ALL=C
 export LC_ALL
-# All is counted in one pass. objdump's own failure is the one that counts.
+# One pass counts everything. A failure of objdump itself becomes a line of its output.
 counts=$({
     "$objdump" -d --no-show-raw-insn "$folder"/*.o || echo "objdump fails"
 } | awk -F '\t' '

@@ -1,8 +1,8 @@
 #!/bin/sh
 # check_library.sh AR LIBRARY FILE...
 #
-# The static library holds these object files, each as it is, and nothing else: what is found out about
-# their instructions holds for the library.
+# The static library contains exactly these object files, unchanged. So the checks of their
+# instructions hold for the library.
 set -u
 ar=$1
 library=$2

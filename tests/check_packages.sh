@@ -1,8 +1,9 @@
 #!/bin/sh
 # check_packages.sh CPACK BUILD VERSION [PYTHON]
 #
-# cpack makes Debian packages of BUILD: each has its files, its licence and what it depends on, and
-# the program runs from where the package is unpacked, the Python package too where there is a PYTHON.
+# cpack makes Debian packages of BUILD. Each package has its files, its licence and its
+# dependencies. The program runs from the unpacked package, and so does the Python package if there
+# is a PYTHON.
 set -eu
 cpack=$1
 build=$2
@@ -18,11 +19,11 @@ fail() {
 }
 
 command -v dpkg-shlibdeps >/dev/null || fail "dpkg-dev is missing; type: sudo apt-get install dpkg-dev"
-# Uncompressed: to compress takes twice as long as all the rest, and is up to dpkg-deb.
+# Uncompressed: compression takes twice as long as all the rest, and dpkg-deb is responsible for it.
 "$cpack" --config "$build/CPackConfig.cmake" -D CPACK_DEBIAN_COMPRESSION_TYPE=none -B "$folder/made" >log 2>&1 || fail "$(cat log)"
 ! grep -i warning log || fail "cpack warns: $(cat log)"
 
-# has PACKAGE FILE…: the package holds these files, below /usr.
+# has PACKAGE FILE…: checks that the package contains these files below /usr.
 has() {
     package=$folder/made/$1_${version}_$(dpkg --print-architecture).deb
     [ -e "$package" ] || fail "no $package; made: $(ls made)"

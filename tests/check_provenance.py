@@ -1,5 +1,6 @@
-"""check_provenance.py CMAKE ROOT: builds and scripts of results name a clean commit by its hash, call
-another state "-dirty", and scripts refuse to measure it unless told; builds name their sources by a digest. Tried in a repository of its own."""
+"""check_provenance.py CMAKE ROOT: builds and scripts of results name a clean commit by its hash, and
+another state with "-dirty". Scripts refuse to measure a dirty state unless told to. Builds also have a
+digest of their sources. The test uses a repository of its own."""
 import os
 import pathlib
 import re
@@ -13,7 +14,7 @@ IDENTITY = ["-c", "user.name=test", "-c", "user.email=test@localhost"]
 
 
 def stamped(repository):
-    """The commit that a build of the repository would be stamped with."""
+    """The commit in the stamp of a build of the repository."""
     stamp = repository.parent / "stamp.cpp"
     subprocess.run([CMAKE, f"-DSOURCE={repository}", f"-DOUTPUT={stamp}", "-DFLAGS=-O3", "-P",
                     ROOT / "cmake/write_build_stamp.cmake"], check=True)
@@ -21,13 +22,13 @@ def stamped(repository):
 
 
 def sources_digest(repository):
-    """The digest of the sources that a build of the repository would be stamped with."""
+    """The digest of the sources in the stamp of a build of the repository."""
     stamped(repository)
     return re.search('built_sources = "(.*)"', (repository.parent / "stamp.cpp").read_text())[1]
 
 
 def measuring(repository, allow=""):
-    """The exit code of what scripts ask before they measure."""
+    """The exit code of the check that scripts make before they measure."""
     done = subprocess.run([sys.executable, "-B", repository / "results/provenance.py"],
                           env={**os.environ, "PACKTRACE_ALLOW_DIRTY": allow}, capture_output=True)
     return done.returncode

@@ -1,10 +1,10 @@
 #!/bin/sh
 # check_rooms.sh SRC ARCHITECTURE.md
 #
-# A folder of the sources includes only what the table of docs/architecture.md says. The rooms of the
-# kernels stand in an order, and a file includes only what is in its own room or in one before it.
-# Kernels see kernel_abi, the kernel of the one-dimensional note and themselves; nobody else
-# includes them.
+# A source folder includes only the folders that the table of docs/architecture.md permits. The
+# folders of the kernels ("rooms") have an order, and a file includes only files of its own room or
+# of an earlier one. Kernels include kernel_abi, the kernel of the one-dimensional note and
+# themselves; no other folder includes them.
 set -u
 table=$(grep '^| `src/' "$2")
 cd "$1" || exit 1
@@ -31,7 +31,8 @@ found=$(includes onedim/onedim_kernel.hpp onedim/bit_transpose.hpp |
     grep -Ev ':(kernel_abi/|kernels/simd/|onedim/bit_transpose)')
 [ -z "$found" ] || { echo "more than kernel_abi and kernels/simd:"; echo "$found"; failed=1; }
 
-# By line a folder and what it sees: names out of its last column, or all folders above it.
+# Each line is a folder and the folders that it may include: names in its last column, or all
+# folders above it.
 above=''
 while IFS='|' read -r _ folder _ sees _; do
     folder=$(echo "$folder" | tr -d '` ' | sed 's/^src\///')

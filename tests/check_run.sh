@@ -1,8 +1,8 @@
 #!/bin/sh
 # check_run.sh RUN
 #
-# What ./run installs, prints and ends with, on a machine whose apt-get, dpkg-query and cmake are
-# scripts of this test: nothing is installed or built.
+# What ./run installs, prints and returns on a machine whose apt-get, dpkg-query and cmake are
+# scripts of this test. Nothing is installed or built.
 set -u
 run=$1
 folder=$(mktemp -d) || exit 1
@@ -14,14 +14,14 @@ PATH=$folder/bin:$PATH
 unset CI CXX
 
 failed=0
-# A program of this machine: its name, then the lines of its script.
+# A fake program of this machine: its name, then the lines of its script.
 fake() {
     name=$1
     shift
     { echo '#!/bin/sh' && printf '%s\n' "$@"; } >"$folder/bin/$name"
     chmod +x "$folder/bin/$name"
 }
-# A run of ./run that is to end with a status.
+# A run of ./run with its expected exit status.
 ends() {
     expected=$1
     shift
@@ -44,7 +44,7 @@ prints_no() {
 fake dpkg-query 'exit 1'
 fake sudo 'exec "$@"'
 fake apt-get 'echo "noise of apt-get"'
-# Sets up a build folder, and builds a program that says what it was called with.
+# A fake cmake that sets up a build folder, and builds a program that prints its arguments.
 fake cmake 'case $1 in' \
     '--preset) mkdir -p build/release; echo "$@" >>configured ;;' \
     '*) echo "[1/1] Building noise"' \
@@ -52,7 +52,7 @@ fake cmake 'case $1 in' \
     '   chmod +x build/release/packtrace ;;' \
     'esac'
 
-# The demo needs neither the tests' packages nor those of reports and truths.
+# The demo needs neither the packages for tests nor those for reports and truths.
 ends 0 demo --size 8x8
 prints 'Installing .*libtbb-dev'
 for package in catch2 benchmark qemu gnuplot boost; do
@@ -73,13 +73,13 @@ if [ "$(uname -m)" = x86_64 ]; then
     grep -q sse_fma configured && wrong 'the demo builds what only comparisons need'
 fi
 
-# All is for all instruction sets, after a demo too.
+# ./run build always builds all instruction sets, even after a demo.
 rm configured
 ends 0 build
 grep -q 'STUDY=ON.*ISAS=all' configured || wrong 'not all instruction sets are built'
 rm configured
 
-# A build folder that has everything keeps it.
+# A complete build folder keeps its configuration.
 echo PACKTRACE_BUILD_STUDY:BOOL=ON >build/release/CMakeCache.txt
 touch build/release/build.ninja
 ends 0 demo
@@ -89,7 +89,7 @@ prints_no 'the first time'
 ends 0 install
 prints 'catch2'
 
-# Sanitizers are clang's, of the version that CXX names.
+# The sanitizers are those of clang, in the version that CXX names.
 fake ctest 'echo "ctest $@"'
 rm configured
 ends 0 sanitize -R image
@@ -102,7 +102,7 @@ ends 0 sanitize
 prints 'Installing .* libclang-rt-19-dev'
 unset CXX
 
-# Threads' tests load the oneTBB that a script builds; here the script says where that would be.
+# The thread tests load the oneTBB that a script builds; this fake script prints its folder.
 mkdir tests
 fake ../project/tests/build_tsan_tbb.sh 'echo "/built in $1"'
 fake ctest 'echo "ctest $@ loads from $LD_LIBRARY_PATH"'
@@ -114,7 +114,7 @@ ends 1 sanitize thread
 prints 'no sources'
 prints_no '^ctest'
 
-# What fails shows its output.
+# A failed step shows its output.
 fake apt-get 'echo "noise of apt-get"' 'exit 100'
 ends 1 demo
 prints 'noise of apt-get'

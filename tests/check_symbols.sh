@@ -1,26 +1,26 @@
 #!/bin/sh
 # check_symbols.sh NM NAMESPACE OBJECT...
 #
-# Kernel objects are compiled for more than the machine may have. A symbol that other objects
-# could share (an inline function's weak copy, say) would let the linker put such code into the
-# whole program. So each symbol of the objects must be in packtrace::NAMESPACE, the weak and
-# local ones too; undefined ones must be there as well, in another object of the same
-# instruction set, or be functions of libc that compilers call on their own.
+# Kernel objects are compiled for more instructions than the machine may have. If the linker could
+# share a symbol with other objects (say, the weak copy of an inline function), such code could
+# reach the whole program. So each symbol of the objects, weak and local ones included, must be in
+# packtrace::NAMESPACE. Undefined symbols must be there too, in another object of the same
+# instruction set, or be libc functions that compilers call on their own.
 set -u
 nm=$1
 namespace=$2
 shift 2
 allowed_undefined='memcpy|memmove|memset|memcmp|__tls_get_addr|_GLOBAL_OFFSET_TABLE_'
-# Names as the compiler writes them: _ZN9packtrace4avx2…, statics within functions _ZZN….
+# Names as the compiler writes them: _ZN9packtrace4avx2…, and statics inside functions as _ZZN….
 ours="^_Z(Z|GVZ?|T[VISH])*N[KVr]*9packtrace${#namespace}${namespace}"
 
 failed=0
 [ $# -gt 0 ] || { echo "no kernel objects for $namespace"; exit 1; }
 for object in "$@"; do
     symbols=$("$nm" --format=posix "$object") || { echo "nm can't read $object"; exit 1; }
-    # Constants that the compiler names itself, .LC0, are no symbols to the linker.
+    # Constants with names of the compiler, such as .LC0, are no symbols to the linker.
     names=$(printf '%s\n' "$symbols" | grep -v '^\.L')
-    # LLVM's nm gives what is undefined a value and a size, too, of 0.
+    # LLVM's nm also prints a value and a size for undefined symbols, both 0.
     is_undefined='$2 == "U" || ($2 ~ /^[wv]$/ && NF < 4)'
     undefined=$(printf '%s\n' "$names" | awk "$is_undefined"' {print $1}')
     defined=$(printf '%s\n' "$names" | awk "!($is_undefined)"' {print $1}')

@@ -1,9 +1,10 @@
 #!/bin/sh
 # check_without_avx.sh QEMU PACKTRACE_TESTS PACKTRACE SCENES TESTS [OPTION…]
 #
-# Runs the program and the tests named by TESTS on an emulated processor that has SSE4.2 and no
-# AVX: an illegal instruction anywhere fails, in the host's code too. SCENES is a scene, which is
-# rendered, or a folder of them: then each is, and every command that traces rays runs.
+# Runs the program and the tests named by TESTS on an emulated processor with SSE4.2 and without
+# AVX: an illegal instruction anywhere fails the test, also in code outside the kernels. SCENES is a
+# scene to render, or a folder: then every scene in it is rendered, and every command that traces
+# rays runs.
 set -u
 qemu=$1
 tests_program=$2
@@ -30,12 +31,12 @@ fail() {
     cat "$folder/output"
     exit 1
 }
-# Runs a command of the program there.
+# Runs a command of the program in the emulator.
 runs() {
     (cd "$folder/there" && emulated "$packtrace" "$@") >"$folder/output" 2>&1 ||
         fail "packtrace $* ends with status $? without AVX"
 }
-# Runs it there, and here with sse42: what it prints is the same, and the files it writes are.
+# Runs a command in the emulator, and here with sse42: output and files must be equal.
 same() {
     (cd "$folder/there" && emulated "$packtrace" "$@" >printed 2>"$folder/output") ||
         fail "packtrace $* ends with status $? without AVX"
@@ -45,12 +46,12 @@ same() {
         fail "packtrace $* gives something else without AVX"
 }
 
-# The emulation is worth something only if AVX is an illegal instruction on it: signal 4.
+# The emulation is meaningful only if AVX is an illegal instruction on it: signal 4.
 emulated "$tests_program" '[unchecked_avx]' >"$folder/output" 2>&1
 status=$?
 [ "$status" = 132 ] || fail "AVX kernels end with status $status there, not 132"
 
-# What such a processor can't run is refused in words.
+# An error message refuses what such a processor can't run.
 for first in "$scenes" "$scenes"/*.scene; do
     [ ! -f "$first" ] || break
 done
@@ -68,13 +69,13 @@ else
         same render "$scene" --size 32x24 --depth 4 -o a.pfm
         same render "$scene" --size 32x24 --depth 4 --precision double -o a.pfm
     done
-    # A hierarchy of boxes, samples, and the other pictures.
+    # Rays through a bvh, several samples, and the other kinds of picture.
     "$packtrace" generate random --count 1000 --radius 0.05 -o "$folder/many.scene" || exit 1
     spheres=$scenes/four_spheres.scene
     same render "$folder/many.scene" --size 32x24 -o a.pfm
     same render "$spheres" --size 32x24 --spp 4 -o a.png
     same render "$spheres" --size 32x24 --adaptive 0.05 -o a.hdr
-    # Rays of one's own, for each kind of answer.
+    # A caller's rays, for each kind of query.
     {
         echo ox,oy,oz,dx,dy,dz
         for x in 0 1 2 3 4 5 6 7 8 9; do echo "0,0,0,0.0$x,-0.0$x,1"; done

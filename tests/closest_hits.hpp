@@ -12,7 +12,7 @@
 // Runs the closest-hit kernel over a scene's camera rays.
 namespace packtrace::test {
 
-/// A camera ray, with the bits the kernels trace, and what it hit; object -1 for nothing.
+/// A camera ray, with the bits that the kernels trace, and its hit; object -1 for a miss.
 template <class Real>
 struct TracedRay {
     LongRay ray;
@@ -20,7 +20,7 @@ struct TracedRay {
     int object = -1;
 };
 
-/// The direction of a canvas point, rounded as the kernels round it.
+/// The direction to a canvas point, rounded as the kernels round it.
 template <class Real>
 [[nodiscard]] LongVec rounded_direction(const abi::CameraView<Real>& camera, Real x, Real y,
                                         bool fused)
@@ -36,7 +36,7 @@ template <class Real>
     return dir;
 }
 
-/// Every second bit of a number along a tile's Z-order curve, from bit 0.
+/// Bits 0, 2, 4 and 6 of `number`: one coordinate of an index along a tile's Z-order curve.
 [[nodiscard]] inline int even_bits(int number)
 {
     int result = 0;
@@ -45,14 +45,14 @@ template <class Real>
     return result;
 }
 
-/// Everything the kernel is given for a scene.
+/// All arguments of the kernel for one scene.
 template <class Real>
 struct TracingSetup {
     LoweredScene lowered;
     PackedScene<Real> packed;
     abi::CameraView<Real> camera;
 
-    /// For floats in a mode; doubles have but one.
+    /// The mode applies to floats; doubles have only one.
     explicit TracingSetup(const Scene& scene, Accuracy accuracy = Accuracy::exact)
         : lowered(lower(scene, sizeof(Real) == sizeof(float) ? accuracy : Accuracy::fast)),
           packed(lowered),
@@ -78,7 +78,8 @@ void append_tile(std::vector<TracedRay<Real>>& rays, const abi::CameraView<Real>
     }
 }
 
-/// Traces whole tiles over the picture; those at the right and lower edge reach beyond it.
+/// Traces whole tiles over the picture. Tiles at the right and lower edge extend beyond the
+/// picture.
 template <class Real>
 [[nodiscard]] std::vector<TracedRay<Real>> trace_closest(const abi::KernelTable& table,
                                                          const TracingSetup<Real>& setup,

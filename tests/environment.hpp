@@ -7,7 +7,8 @@
 
 namespace packtrace::test {
 
-/// An environment variable set, or with no value unset, for the life of the object.
+/// Sets an environment variable for the lifetime of the object; unsets the variable without a
+/// value.
 class ScopedVariable {
 public:
     ScopedVariable(const char* name, const std::optional<std::string>& value) : name_(name)

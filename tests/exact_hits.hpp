@@ -6,8 +6,8 @@
 #include <algorithm>
 #include <cmath>
 
-// Ray tests in long double, with what is needed to judge a result in less precision: how
-// sensitive t is to its inputs, and how far the ray is from just touching the surface.
+// Ray tests in long double. They also give what a comparison with lower precision needs: how
+// sensitive t is to errors of the inputs, and how far the ray is from just touching the surface.
 namespace packtrace::test {
 
 using LongVec = glm::vec<3, long double>;
@@ -18,8 +18,8 @@ struct LongRay {
     long double t_min = 0.0L;
 };
 
-/// A root and its neighbourhood. `condition` is the relative change of t for relative changes
-/// of size 1 of the inputs; `margin` the relative change of the inputs that decides otherwise.
+/// A root and its sensitivity. `condition` is the relative change of t per relative change of the
+/// inputs. `margin` is the relative change of the inputs that turns a hit into a miss or back.
 struct ExactHit {
     bool hit = false;
     long double t = 0.0L;
@@ -32,8 +32,8 @@ struct ExactHit {
     return glm::abs(v);
 }
 
-/// The condition of t where a surface through `place`, with gradient `normal`, is hit: the
-/// change of n·(o + t d - place) by its terms, over n·d t.
+/// The condition of t for a hit of a surface through `place` with gradient `normal`: the sum of the
+/// magnitudes of the terms of n·(o + t d - place), over n·d t.
 [[nodiscard]] inline long double condition_of(const LongRay& ray, long double t,
                                               const LongVec& normal, const LongVec& place)
 {
@@ -41,21 +41,22 @@ struct ExactHit {
     return glm::dot(magnitudes(normal), terms) / std::abs(glm::dot(normal, ray.dir) * t);
 }
 
-/// Chooses the first of two roots, t0 <= t1, beyond the ray's t_min.
+/// The first of two roots, t0 <= t1, beyond the ray's t_min.
 [[nodiscard]] inline ExactHit first_beyond(const LongRay& ray, long double t0, long double t1)
 {
     return {.hit = t1 > ray.t_min, .t = t0 > ray.t_min ? t0 : t1};
 }
 
-/// How far relative to t the root is from the ray's start, in units of its condition.
+/// The distance from t_min to the root, relative to t, in units of its condition.
 [[nodiscard]] inline long double start_margin(const LongRay& ray, long double t,
                                               const LongVec& normal, const LongVec& place)
 {
     return std::abs(t - ray.t_min) / (std::abs(t) * condition_of(ray, t, normal, place));
 }
 
-/// The sphere |P - center|² = radius2. `place` is where it is given to be: its centre, or a
-/// point of its surface. The inputs' relative changes move ray and sphere by |org| + |place|.
+/// The sphere |P - center|² = radius2. The scene gives the sphere's location by `place`: its
+/// centre, or a point of its surface. Relative changes of the inputs move ray and sphere by |org| +
+/// |place|.
 [[nodiscard]] inline ExactHit exact_sphere(const LongRay& ray, const LongVec& center,
                                            long double radius2, const LongVec& place)
 {

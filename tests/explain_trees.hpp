@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-// Short calls for the tests of ray trees.
+// Helpers for the tests of ray trees.
 namespace packtrace::test {
 
 [[nodiscard]] inline RayNode reference_tree(const Scene& scene, int x, int y)

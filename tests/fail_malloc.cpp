@@ -1,10 +1,11 @@
-// Preloaded into a program, it lets one allocation fail: the one whose number, counted from the
-// start of main(), the variable FAIL_MALLOC_AT names. With FAIL_MALLOC_AT=count none fails, and the
-// end of standard error says how many there were. With FAIL_MALLOC_AT=FIRST..LAST..STEP, main()
-// runs once for each of these numbers, in a process of its own, which takes half as long as to
-// start the program as often: in the folder NUMBER, with NUMBER.err as standard error; of each that
-// ends, a line `NUMBER STATUS` says with which exit code, or 128 and the signal. Programs that are
-// linked with it choose for themselves, and count what they have not freed (fail_malloc.hpp).
+// A library to preload into a program. It makes one allocation fail: number FAIL_MALLOC_AT, an
+// environment variable, counted from the start of main(). With FAIL_MALLOC_AT=count none fails, and
+// the last line of standard error gives the number of allocations. With
+// FAIL_MALLOC_AT=FIRST..LAST..STEP, main() runs once for each of these numbers. Each run is a
+// process in the folder NUMBER with standard error in NUMBER.err; this takes half the time of
+// starting the program once per number. When a run ends, a line `NUMBER STATUS` gives its exit
+// code, or 128 plus its signal. A program linked with this file chooses the allocation itself and
+// counts unfreed blocks (fail_malloc.hpp).
 #include "fail_malloc.hpp"
 
 #include <array>
@@ -58,7 +59,7 @@ void print_count()
     std::fprintf(stderr, "%ld\n", enough - left.load());
 }
 
-/// The copy of this process in which that allocation fails.
+/// Begins the copy of this process in which allocation `number` fails.
 void begin_run(long number)
 {
     std::array<char, 32> name{};
@@ -71,8 +72,8 @@ void begin_run(long number)
     left = number;
 }
 
-/// Returns whether this is the copy of the process for one of the numbers, and not the one that is
-/// done with all.
+/// True in a copy of the process that runs one of the numbers; false in the original process after
+/// all runs.
 bool is_run(long first, long last, long step)
 {
     for (long number = first; number <= last; number += step) {

@@ -1,12 +1,12 @@
 #pragma once
 
-// What tests/fail_malloc.cpp offers programs that are linked with it.
+// Functions of tests/fail_malloc.cpp for programs linked with it.
 extern "C" {
 
-/// Lets the allocation fail that is the `number`th from now, 1 or above; 0 lets none fail any more.
-/// Returns whether the one that was to fail before has failed.
+/// Makes the allocation fail that is the `number`th from now, 1 or above; after 0 none fails.
+/// Returns whether the previously chosen allocation has failed.
 bool fail_malloc_at(long number);
 
-/// Blocks of memory that have been allocated and not freed.
+/// The number of blocks of memory that are allocated and not freed.
 long live_blocks();
 }

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-// Scenes that do without most of what there is, each in its own way.
+// Scenes that each use only a few features.
 namespace packtrace::test {
 
 inline const std::string small_view = "image_size = 80 x 60\nviewport_size = 1.3333 x 1\n";
@@ -80,7 +80,7 @@ inline const std::string two_balls =
     };
 }
 
-/// More spheres than a list holds, every third of which casts no shadow.
+/// More spheres than a list holds; every third casts no shadow.
 [[nodiscard]] inline Scene forest_scene()
 {
     Scene scene = random_spheres(400, 5);

@@ -10,16 +10,16 @@
 
 namespace packtrace::test {
 
-/// More scenes than the usual number, where the environment asks for them.
+/// The usual number of scenes, or more if the environment asks for more.
 [[nodiscard]] inline unsigned scene_count(unsigned usual)
 {
     const char* const asked = std::getenv("PACKTRACE_FUSED_SCENES");
     return asked != nullptr ? static_cast<unsigned>(std::atoi(asked)) : usual;
 }
 
-/// Scenes of a few spheres, grounds and planes, some with quadrics and polygons, and with whatever
-/// may upset a bound: bodies that overlap or touch, eyes and lights within them, sizes and
-/// distances of many magnitudes.
+/// Scenes of a few spheres, grounds and planes, some with quadrics and polygons. They challenge the
+/// bounds of culling: bodies overlap or touch, eyes and lights are inside bodies, sizes and
+/// distances span many magnitudes.
 class FewObjects {
 public:
     explicit FewObjects(unsigned seed) : random_(seed)
@@ -110,7 +110,8 @@ private:
         }
         for (int i = chance(0.4) ? 1 + below(6) : 0; i > 0; --i)
             add(plane(middle + vector(4.0), vector(1.0) + Vec3(0.01)));
-        // Contacts: spheres that touch the first one to the last digit, and the same place twice.
+        // Contacts: spheres that touch the first one to the last digit, and spheres in the same
+        // place.
         if (!scene.objects.empty() && chance(0.4)) {
             const auto* first = std::get_if<Sphere>(&scene.objects.front().surface);
             if (first != nullptr)
@@ -140,7 +141,7 @@ private:
                                                                 : clip(whole, low, high);
     }
 
-    /// A star of five or seven corners, or a few around a point.
+    /// A star of five or seven corners, or a few corners around a point.
     Polygon any_polygon()
     {
         std::vector<Vec3> corners;

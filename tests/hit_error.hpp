@@ -4,11 +4,11 @@
 
 #include <limits>
 
-// Holds closest hits of the kernels against long double ones.
+// Compares closest hits of the kernels with hits in long double.
 namespace packtrace::test {
 
-/// Everything a ray could hit, as exact as the inputs the kernels were given: in exact mode the
-/// scene's own numbers, else those rounded to Real.
+/// The exact hit of a ray with every object. The inputs are those that decide in the kernels: in
+/// exact mode the scene's own numbers, else these numbers rounded to Real.
 template <class Real>
 [[nodiscard]] std::vector<ExactHit> exact_hits(const LongRay& ray, const LoweredScene& scene)
 {
@@ -24,8 +24,9 @@ template <class Real>
         hits[static_cast<std::size_t>(sphere.surface)] =
             exact_sphere(ray, given(sphere.center), radius2, LongVec(sphere.center));
     }
-    // An anchored sphere's centre is not rounded to float: it is given by a point of its surface,
-    // and held against the scene's own numbers. For doubles those are rounded too.
+    // An anchored sphere is given by a point of its surface, and its centre is not rounded to
+    // float: the comparison uses the scene's own numbers. For doubles the scene's numbers are
+    // rounded too.
     for (const LoweredAnchoredSphere& sphere : scene.anchored_spheres) {
         const long double radius2 = static_cast<long double>(sphere.radius) * sphere.radius;
         const LongVec place(sizeof(Real) < sizeof(double) ? sphere.anchor : sphere.center);
@@ -38,21 +39,22 @@ template <class Real>
     return hits;
 }
 
-/// How many rays are wrong, and in what. The band and `worst_t` count in the unit roundoff of what
-/// decides: of double in exact mode, else of Real.
+/// Counts of wrong rays by kind of error. `band` and `worst_t` are in unit roundoffs of the
+/// precision that decides: of double in exact mode, else of Real.
 struct HitErrors {
     int rays = 0;
     int hits = 0;
-    int undecidable = 0;  ///< rays that had an object within `band` of being hit or missed
+    int undecidable = 0;  ///< rays with an object within `band` of the border between hit and miss
     int wrong_object = 0;
-    double worst_t = 0.0;    ///< of t's relative error over what the condition allows
-    double worst_ulp = 0.0;  ///< of t's error in units of Real's last place
+    double worst_t = 0.0;    ///< t's relative error over the error that the condition allows
+    double worst_ulp = 0.0;  ///< t's error in units of Real's last place
 };
 
-/// Relative changes of the inputs, in roundoffs, within which hit or miss is not held to.
+/// If relative changes of the inputs by so many roundoffs turn a hit into a miss or back, either
+/// answer is accepted.
 inline constexpr long double band = 4.0L;
 
-/// t may be wrong by the inputs' rounding times this; 2.5 was measured.
+/// The bound of t's error, as a multiple of the error that rounded inputs cause; 2.5 was measured.
 inline constexpr long double stability = 4.0L;
 
 template <class Real>
@@ -89,14 +91,15 @@ private:
         return stability * hit.condition * roundoff_ * hit.t;
     }
 
-    /// The object found is hit, and no other one surely nearer; none is found where all miss.
+    /// The object found is hit, and no other object is certainly nearer; for a miss, all objects
+    /// are missed.
     [[nodiscard]] bool is_closest(const TracedRay<Real>& traced,
                                   const std::vector<ExactHit>& exact) const
     {
         const auto found = static_cast<std::size_t>(traced.object);
         if (traced.object >= 0 && !exact[found].hit && !undecidable(exact[found]))
             return false;
-        // What decides in exact mode has more digits than t is answered with.
+        // In exact mode the deciding precision is higher than the precision of the returned t.
         const bool known = scene_.features.exact && traced.object >= 0 && exact[found].hit;
         const long double t = known ? exact[found].t : static_cast<long double>(traced.t);
         for (std::size_t other = 0; other < exact.size(); ++other) {

@@ -12,7 +12,7 @@
 
 namespace packtrace::test {
 
-/// A scene whose hits can be worked out by hand: the unit sphere "ball" at (0, 0, 5), the plane
+/// A scene whose hits can be computed by hand: the unit sphere "ball" at (0, 0, 5), the plane
 /// "floor, tiled" at y = -2, the capped unit cylinder "can" at (10, 0, 0) along z from -1 to 1.
 inline constexpr const char* hand_scene = R"(
 sphere { name = "ball"  center = (0, 0, 5)  radius = 1  color = (255, 0, 0) }
@@ -21,7 +21,7 @@ cylinder { name = "can"  z_range = (-1, 1)  capped = true  translate = (10, 0, 0
            color = (255, 0, 0) }
 )";
 
-/// Runs `packtrace intersect` on the hand-worked scene and rays of this text.
+/// Runs `packtrace intersect` on `hand_scene` and the rays in this text.
 [[nodiscard]] inline ProgramResult intersect(const std::string& rays,
                                              const std::vector<std::string>& more = {})
 {
@@ -32,15 +32,15 @@ cylinder { name = "can"  z_range = (-1, 1)  capped = true  translate = (10, 0, 0
                                    (folder / "rays.csv").string()};
     words.insert(words.end(), more.begin(), more.end());
     ProgramResult result = run_packtrace(words);
-    // Messages name the file; where it lies changes from run to run.
+    // Messages contain the file's path, which changes from run to run.
     const std::string place = (folder / "").string();
     if (result.err.starts_with(place))
         result.err.erase(0, place.size());
     return result;
 }
 
-/// Lets the shell run `packtrace` with `words` (redirections too). Gives its exit code, and the
-/// most memory it held at once, in KiB.
+/// Result of a shell command that runs `packtrace` with `words`, which may include redirections:
+/// its exit code and its peak memory in KiB.
 struct ShellResult {
     int exit_code = -1;
     long peak_memory = 0;

@@ -5,11 +5,11 @@
 #include <string>
 #include <vector>
 
-// What jobs of several shards or ranks are given.
+// Inputs of jobs with several shards or ranks.
 namespace packtrace::test {
 
-/// A CSV of rays of several blocks, with a header, comments, blank lines and no end of the last
-/// line.
+/// A CSV of several blocks of rays, with a header, comments, blank lines and no line end after the
+/// last line.
 [[nodiscard]] inline std::string many_rays(int count)
 {
     std::string text = "# rays\nox,oy,oz,dx,dy,dz\n";
@@ -23,7 +23,7 @@ namespace packtrace::test {
     return text;
 }
 
-/// The first families of rays that `stress` has.
+/// The first ray families of `stress`.
 [[nodiscard]] inline std::vector<std::string> first_families(std::size_t count)
 {
     const std::string list = run_packtrace({"stress", "--list"}).out;

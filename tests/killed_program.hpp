@@ -15,7 +15,7 @@
 
 namespace packtrace::test {
 
-/// Turns this process into a program.
+/// Replaces this process by a program.
 [[noreturn]] inline void become(const std::vector<std::string>& words)
 {
     std::vector<char*> arguments;
@@ -26,8 +26,8 @@ namespace packtrace::test {
     _exit(127);
 }
 
-/// Starts a program, and ends it by a signal once `when` holds, which is asked every millisecond;
-/// the program may end before. Returns what waitpid() says.
+/// Starts a program and sends it a signal once `when` holds; `when` is called every millisecond.
+/// The program may end earlier. Returns waitpid()'s status.
 [[nodiscard]] inline int kill_program(const std::vector<std::string>& words, int number,
                                       const std::function<bool()>& when)
 {
@@ -49,8 +49,8 @@ namespace packtrace::test {
     return status;
 }
 
-/// What a command of packtrace prints on standard error that is interrupted after two seconds, of
-/// many that its work takes.
+/// The standard error of a packtrace command whose work takes many seconds, interrupted after two
+/// seconds.
 [[nodiscard]] inline std::string interrupted_message(const std::string& command)
 {
     const TempFolder folder;
@@ -61,7 +61,7 @@ namespace packtrace::test {
     return WIFSIGNALED(status) ? read_text(folder / "err") : "was not interrupted";
 }
 
-/// Lines of a file that may not be there.
+/// The number of lines of a file, which need not exist.
 [[nodiscard]] inline long lines_of(const std::filesystem::path& file)
 {
     const std::string text = read_text(file);

@@ -1,5 +1,5 @@
-// leaks WORK: does some work of the library's again and again, each time with another allocation
-// that fails; exits 1 where memory is lost or nothing ever fails.
+// leaks WORK: repeats some work of the library, each time with another failing allocation. Exits
+// with 1 if memory is lost or if no allocation ever fails.
 #include "fail_malloc.hpp"
 #include <packtrace/generate.hpp>
 #include <packtrace/intersect.hpp>
@@ -53,7 +53,7 @@ void tree()
     (void)render<float>(scene, one_thread(Traversal::tree));
 }
 
-/// Rays through a field of points at z = 5, as arrays.
+/// Arrays of rays through a grid of points at z = 5.
 struct Rays {
     std::vector<float> zero, across, ahead, end;
 
@@ -124,7 +124,8 @@ Work work_named(const char* name)
     return nullptr;
 }
 
-/// What is held after the work was done whole: what is kept for later calls, and all that was lost.
+/// The number of live blocks after complete work: caches for later calls, and all blocks that were
+/// lost.
 long live_after(Work work)
 {
     work();
@@ -132,7 +133,7 @@ long live_after(Work work)
     return live_blocks();
 }
 
-/// Whether the work ended for want of memory.
+/// Whether the work ended because memory ran out.
 bool runs_out(Work work, long allocation)
 {
     fail_malloc_at(allocation);

@@ -6,8 +6,8 @@
 
 namespace packtrace::test {
 
-/// Shell words before a command that limit the program's address space. Empty where it cannot start
-/// at all under such a limit: sanitizers map more than any would leave them.
+/// Shell words before a command that limit the program's address space. Empty if the program cannot
+/// start under this limit: sanitizers map more address space than any limit leaves.
 [[nodiscard]] inline std::string memory_limit(int kilobytes)
 {
     const std::string limit = "ulimit -v " + std::to_string(kilobytes) + ";";

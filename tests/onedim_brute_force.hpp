@@ -9,8 +9,8 @@
 
 namespace packtrace::test {
 
-/// Every assignment of None, Medium, All to the rays of a small system, held against the note's
-/// equations one by one; it shares no code with the solvers.
+/// Tries every assignment of None, Medium, All to the rays of a small system and checks the note's
+/// equations one by one. It shares no code with the solvers.
 class BruteForce {
 public:
     static constexpr std::size_t most_surfaces = 4;
@@ -26,7 +26,7 @@ public:
         least_solves_ = found_ && solves();
     }
 
-    /// Whether the least of every ray over all solutions is itself a solution.
+    /// Whether the minimum of every ray over all solutions is itself a solution.
     [[nodiscard]] bool has_least_solution() const
     {
         return least_solves_;
@@ -92,7 +92,7 @@ private:
         found_ = true;
     }
 
-    // Counts the assignments like a number in base 3; false after the last.
+    // Counts through the assignments as numbers in base 3; false after the last.
     bool next(std::size_t unknowns)
     {
         for (std::size_t i = 0; i < unknowns; ++i) {

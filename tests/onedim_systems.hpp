@@ -10,7 +10,7 @@
 
 namespace packtrace::test {
 
-/// The 54 kinds of surface there are.
+/// All 54 kinds of surface.
 [[nodiscard]] inline std::vector<onedim::Surface> all_surfaces()
 {
     std::vector<onedim::Surface> surfaces;
@@ -25,7 +25,8 @@ namespace packtrace::test {
     return surfaces;
 }
 
-/// Surfaces of any kind, of which one in `dark` may emit: with few emitters light travels far.
+/// A system of random surfaces. One surface in `dark` may emit: with few emitters light travels
+/// far.
 [[nodiscard]] inline std::vector<onedim::Surface> random_system(std::mt19937& random,
                                                                 std::size_t length, unsigned dark)
 {
@@ -39,7 +40,7 @@ namespace packtrace::test {
     return system;
 }
 
-/// Systems from their notation.
+/// Parses systems from their notation.
 [[nodiscard]] inline onedim::Systems systems_of(const std::vector<std::string>& lines)
 {
     onedim::Systems systems;
@@ -48,7 +49,7 @@ namespace packtrace::test {
     return systems;
 }
 
-/// Every solver, the bit-sliced one on every instruction set of this machine.
+/// Every solver; the bit-sliced solver on every instruction set of this machine.
 [[nodiscard]] inline std::vector<onedim::SolveOptions> all_solvers()
 {
     std::vector<onedim::SolveOptions> solvers{{onedim::Solver::scalar, "auto"},
@@ -59,7 +60,7 @@ namespace packtrace::test {
     return solvers;
 }
 
-/// Checks that every solver gives these answers, in one comparison each.
+/// Checks that every solver gives these answers, with one comparison per solver.
 inline void check_all_solvers(const onedim::Systems& systems,
                               const std::vector<onedim::Intensity>& expected)
 {

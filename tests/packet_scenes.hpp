@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <functional>
 
-// Scenes that reach every branch of the packet kernels, each small and of an odd size, so that
+// Scenes that reach every branch of the packet kernels. Each is small and has odd sides, so that
 // tiles are cut at the right and lower edge.
 namespace packtrace::test {
 
@@ -21,7 +21,7 @@ struct NamedScene {
     return scene;
 }
 
-/// Note 001 and what becomes of it when parts of it are taken away or changed.
+/// Note 001's scene, and variants with parts removed or changed.
 [[nodiscard]] inline std::vector<NamedScene> note_scenes()
 {
     const Scene note = four_spheres(75, 53);
@@ -49,7 +49,7 @@ struct NamedScene {
     };
 }
 
-/// Lights and eyes in unusual places.
+/// Scenes with lights and eyes in unusual places.
 [[nodiscard]] inline std::vector<NamedScene> placement_scenes()
 {
     const Scene note = four_spheres(75, 53);

@@ -10,7 +10,8 @@
 
 namespace packtrace::test {
 
-/// Every instruction set of this machine, by lists and by a hierarchy, in one accuracy.
+/// Options for every instruction set of this machine, with list and with bvh traversal, in one
+/// accuracy.
 [[nodiscard]] inline std::vector<RenderOptions> packet_ways(Accuracy accuracy = Accuracy::exact)
 {
     std::vector<RenderOptions> ways;
@@ -21,7 +22,7 @@ namespace packtrace::test {
     return ways;
 }
 
-/// Of any channel of any pixel.
+/// The largest difference over all channels of all pixels.
 template <class Real>
 [[nodiscard]] double largest_difference(const Image<Real>& image, const Image<double>& truth)
 {

@@ -11,7 +11,8 @@
 
 namespace packtrace::test {
 
-/// Values of which the last ends where a page begins that no one may touch.
+/// An array that ends exactly where an inaccessible memory page begins, so that a read beyond its
+/// end crashes.
 template <class T>
 class PageEnd {
 public:

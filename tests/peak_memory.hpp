@@ -3,7 +3,7 @@
 #include <fstream>
 #include <string>
 
-// What this process holds in memory, from Linux' /proc.
+// The memory that this process uses, from Linux' /proc.
 namespace packtrace::test {
 
 #if defined(__has_feature)
@@ -12,15 +12,15 @@ namespace packtrace::test {
 #endif
 #endif
 
-/// What the address sanitizer may hold beside the program's own memory: shadows of what is
-/// touched, blocks that were freed, and, by default in newer compilers, frames that were left.
+/// Memory that the address sanitizer may hold beside the program's own: shadow memory, freed
+/// blocks, and (by default in newer compilers) stack frames of functions that have returned.
 #if defined(PACKTRACE_TEST_SHADOWED) || defined(__SANITIZE_ADDRESS__)
 inline constexpr long sanitizer_kilobytes = 32768;
 #else
 inline constexpr long sanitizer_kilobytes = 0;
 #endif
 
-/// A line of /proc/self/status in kB; 0 where there is none.
+/// A value of /proc/self/status in kB; 0 if it is missing.
 [[nodiscard]] inline long memory_status(const std::string& name)
 {
     std::ifstream status("/proc/self/status");
@@ -30,11 +30,11 @@ inline constexpr long sanitizer_kilobytes = 0;
     return 0;
 }
 
-/// How far `work` raises the peak of the memory in use, in kB.
+/// By how much `work` raises the peak of the memory in use, in kB.
 template <class Work>
 [[nodiscard]] long peak_growth(const Work& work)
 {
-    // Lets the peak start from what is in use now, where the system allows it.
+    // Resets the peak to the memory now in use, if the system permits it.
     std::ofstream("/proc/self/clear_refs") << "5" << std::flush;
     const long before = memory_status("VmHWM");
     work();

@@ -21,7 +21,7 @@ using Contours = std::vector<std::vector<Vec3>>;
     return {.surface = Polygon{contours}};
 }
 
-/// The six faces of |x|, |y|, |z| <= 1, each with its normal outwards.
+/// The six faces of |x|, |y|, |z| <= 1, each with an outward normal.
 [[nodiscard]] inline std::vector<Object> cube_faces()
 {
     std::vector<Object> faces;
@@ -40,7 +40,7 @@ using Contours = std::vector<std::vector<Vec3>>;
     return faces;
 }
 
-/// Five points of radius 2 around the z axis with notches of 0.8, and a hole of 0.4.
+/// A star with five points of radius 2 around the z axis, notches of radius 0.8, and a hole of 0.4.
 [[nodiscard]] inline Object star()
 {
     std::vector<Vec3> outline, hole;

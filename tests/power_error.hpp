@@ -32,7 +32,7 @@ struct PowerSamples {
     }
 };
 
-/// Whole and broken exponents spread evenly over the logarithm of a decade.
+/// Integer and fractional exponents, spread evenly over the logarithm of a decade.
 [[nodiscard]] inline std::vector<double> exponents_of(const ExponentDecade& decade)
 {
     constexpr int count = 48;
@@ -45,8 +45,8 @@ struct PowerSamples {
     return exponents;
 }
 
-/// Bases in [0, 1 + 1e-6] whose power is anything from 1 down to `smallest`, evenly over its
-/// logarithm, and bases evenly over the whole range.
+/// Bases in [0, 1 + 1e-6]. Some give powers from 1 down to `smallest`, spread evenly over the
+/// logarithm of the power; the others are spread evenly over the whole range.
 template <class Real>
 [[nodiscard]] PowerSamples<Real> power_samples(const ExponentDecade& decade, double smallest,
                                                int per_exponent = 400)
@@ -94,7 +94,7 @@ template <class Real>
 
 struct PowerError {
     double max_ulp = 0.0;  ///< over powers above 1e-4
-    double p99_ulp = 0.0;  ///< likewise
+    double p99_ulp = 0.0;  ///< over powers above 1e-4
     double max_abs = 0.0;  ///< over all powers
     int counted = 0;       ///< powers above 1e-4
 };

@@ -6,15 +6,15 @@
 #include <string>
 #include <vector>
 
-// Runs of the program that write files, for tests of what is left of a file where a run fails.
+// Program runs that write files, for tests of what a failed run leaves behind.
 namespace packtrace::test {
 
 /// A run of the program, and the file that it writes.
 struct Work {
     std::string name;
-    std::string output;              ///< the last of its files
+    std::string output;              ///< the last file it writes
     std::vector<std::string> words;  ///< `@` stands for the folder
-    int longest = 60000;             ///< microseconds after which it has ended, or nearly so
+    int longest = 60000;             ///< microseconds after which the run has ended, or nearly so
     bool holds_times = false;        ///< no two runs write the same bytes
 };
 
@@ -48,7 +48,7 @@ struct Work {
     return words;
 }
 
-/// What `intersect` among them reads.
+/// Writes the input of `intersect`, which is one of the works.
 inline void write_rays(const TempFolder& folder)
 {
     std::string text;
@@ -57,7 +57,7 @@ inline void write_rays(const TempFolder& folder)
     write_text(folder / "rays", text);
 }
 
-/// Whether a file holds all that a run which nothing disturbed wrote.
+/// Whether a file has everything that an undisturbed run writes.
 [[nodiscard]] inline bool is_whole(const Work& work, const std::string& text,
                                    const std::string& expected)
 {
@@ -65,7 +65,7 @@ inline void write_rays(const TempFolder& folder)
                             : text == expected;
 }
 
-/// Unfinished files, in folders below too.
+/// The number of unfinished files in the folder and its subfolders.
 [[nodiscard]] inline std::size_t temporaries(const TempFolder& folder)
 {
     std::size_t count = 0;

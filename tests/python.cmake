@@ -1,5 +1,5 @@
-# Tests of the Python package, one ctest a file. Python itself has no sanitizers, and loads no module
-# that has them.
+# Tests of the Python package, one ctest per file. Python itself has no sanitizers and cannot load a
+# module built with them.
 if(PACKTRACE_SANITIZE)
     return()
 endif()

@@ -1,5 +1,6 @@
-// packtrace_quiet_ranks: ranks of a node work side by side, and time alone. Prints the number of
-// nodes; then for each stage of each rank "RANK work|timed BEGIN END", by the machine's clock.
+// packtrace_quiet_ranks: the ranks of a node work side by side, and each measures times while the
+// others are idle. Prints the number of nodes, then for each stage of each rank "RANK work|timed
+// BEGIN END", by the machine's clock.
 #include "mpi/quiet_node.hpp"
 #include "mpi/world.hpp"
 
@@ -20,7 +21,6 @@ public:
     {
     }
 
-    /// Does some work.
     void pass(const std::string& kind)
     {
         const auto begin = std::chrono::steady_clock::now();
@@ -44,7 +44,7 @@ void run(const World& world)
 {
     const QuietNode node;
     Stages stages(world);
-    // Comes back only if all may work at once.
+    // The barrier returns only if all ranks may work at once.
     node.side_by_side([] { MPI_Barrier(MPI_COMM_WORLD); });
     for (int i = 0; i < repetitions; ++i)
         node.side_by_side([&] {

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-// Scenes of everything that the language can say, built in code.
+// Random scenes that use everything the scene language can express, built in code.
 namespace packtrace::test {
 
 class RandomScene {
@@ -100,7 +100,7 @@ private:
         }
     }
 
-    /// Of any signs, with some surface.
+    /// Random coefficients of any sign whose surface is not empty.
     [[nodiscard]] std::array<double, 10> coefficients()
     {
         const double A = random_.between(0.2, 2);
@@ -194,7 +194,7 @@ private:
         return chance(0.5) ? Rgb(random_.between(0, most)) : random_.inside(Vec3(0.0), Vec3(most));
     }
 
-    /// Some share a name, with or without their numbers.
+    /// Some materials share a name; the colours of some of these differ.
     [[nodiscard]] Material material()
     {
         if (chance(0.2) && !scene.objects.empty()) {

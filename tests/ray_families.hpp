@@ -2,7 +2,7 @@
 
 #include "scenes.hpp"
 
-// Scenes whose camera rays are hard on ray tests: far, tiny, anchored and grazed objects.
+// Scenes whose camera rays are hard cases of ray tests: far, tiny, anchored and grazed objects.
 namespace packtrace::test {
 
 struct RayFamily {
@@ -10,7 +10,7 @@ struct RayFamily {
     Scene scene;
 };
 
-/// Spheres of radius up to `size` around a place straight ahead that fills the picture.
+/// Spheres of radius up to `size` around a point straight ahead; together they fill the picture.
 [[nodiscard]] inline Scene cluster(double distance, double size, unsigned seed)
 {
     SceneRandom random(seed);
@@ -36,7 +36,7 @@ struct RayFamily {
     return scene;
 }
 
-/// The ground of note 001 with another radius, its top at y = -1, and the eye over it.
+/// The ground of note 001 with another radius, its top at y = -1, and the eye above it.
 [[nodiscard]] inline Scene ground(double radius, double eye)
 {
     Scene scene;

@@ -33,7 +33,7 @@ inline Material matte(const Rgb& color, double reflective = 0.0)
     return material;
 }
 
-/// A quadric by its coefficients A … J, in its own space.
+/// A quadric with coefficients A … J, in object space.
 inline Object quadric(const std::array<double, 10>& coefficients, const Material& material = {})
 {
     return {.surface = Quadric{.coefficients = coefficients}, .material = material};
@@ -64,14 +64,14 @@ inline Light directional(const Vec3& direction, double intensity)
     return {LightType::directional, Rgb(intensity), direction};
 }
 
-/// What a camera ray along `dir` brings in double precision.
+/// The colour of a camera ray along `dir`, in double precision.
 inline reference::Vec3<double> trace(const Scene& scene, const reference::Vec3<double>& org,
                                      const reference::Vec3<double>& dir)
 {
     return reference::Reference<double>(scene).trace_ray(org, dir);
 }
 
-/// What a ray sees that meets the floor y = 0 at the origin.
+/// The colour of a ray that hits the floor y = 0 at the origin.
 inline reference::Vec3<double> seen(const Scene& scene)
 {
     return trace(scene, {-3, 4, 0}, {3, -4, 0});

@@ -5,7 +5,7 @@
 
 namespace packtrace::test {
 
-/// What the `Error` says that `call` throws; "accepted" where it throws nothing.
+/// The message of the `Error` that `call` throws; "accepted" if it throws nothing.
 template <class Error = std::exception>
 [[nodiscard]] std::string refusal(const auto& call)
 {

@@ -5,10 +5,10 @@
 #include <string>
 #include <vector>
 
-// Short calls of the packet kernels and the scalar reference.
+// Helpers that call the packet kernels and the scalar reference.
 namespace packtrace::test {
 
-/// Those this machine can run, narrowest first.
+/// The instruction sets that this machine can run, narrowest first.
 [[nodiscard]] inline std::vector<std::string> supported_isas()
 {
     std::vector<std::string> names;
@@ -18,7 +18,7 @@ namespace packtrace::test {
     return names;
 }
 
-/// Those of one bit pattern: sse42 has no fused multiply-add.
+/// The instruction sets with fused multiply-add, which all give the same bits. sse42 has none.
 [[nodiscard]] inline std::vector<std::string> fused_isas()
 {
     std::vector<std::string> names = supported_isas();

@@ -10,8 +10,8 @@
 
 namespace packtrace::test {
 
-/// Runs the packtrace program on a terminal of its own and returns what it wrote there. Throws
-/// std::system_error where there is no terminal to be had.
+/// Runs the packtrace program on a pseudo-terminal and returns its output. Throws std::system_error
+/// if no terminal can be opened.
 [[nodiscard]] inline std::string run_on_terminal(std::vector<std::string> arguments)
 {
     arguments.insert(arguments.begin(), PACKTRACE_CLI);

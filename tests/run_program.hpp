@@ -12,7 +12,7 @@ namespace packtrace::test {
 inline const std::string four_spheres_file = PACKTRACE_SOURCE_DIR "/scenes/four_spheres.scene";
 
 struct ProgramResult {
-    int exit_code = -1;  ///< -1 when it was killed
+    int exit_code = -1;  ///< -1 if it was killed
     std::string out;
     std::string err;
 };
@@ -25,8 +25,8 @@ struct ProgramResult {
     return quoted + "'";
 }
 
-/// Runs a program with its arguments, with `environment` (NAME=value words of the shell) before it
-/// and the file `input` as its standard input.
+/// Runs a program with its arguments. `environment` (NAME=value words of the shell) precedes the
+/// command; the file `input` is its standard input.
 [[nodiscard]] inline ProgramResult run_command(const std::vector<std::string>& words,
                                                const std::string& environment = "",
                                                const std::string& input = "/dev/null")
@@ -47,7 +47,7 @@ struct ProgramResult {
     return result;
 }
 
-/// Runs the packtrace program in the same way.
+/// Runs the packtrace program likewise.
 [[nodiscard]] inline ProgramResult run_packtrace(const std::vector<std::string>& arguments,
                                                  const std::string& environment = "",
                                                  const std::string& input = "/dev/null")

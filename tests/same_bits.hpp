@@ -9,7 +9,7 @@
 #include <ranges>
 #include <type_traits>
 
-// Comparisons of bits: a NaN equals a NaN of the same bits, and -0 differs from 0.
+// Bitwise comparisons: a NaN equals a NaN with the same bits, and -0 differs from 0.
 namespace packtrace::test {
 
 template <class Number>
@@ -19,7 +19,7 @@ requires std::is_arithmetic_v<Number>
     return std::memcmp(&a, &b, sizeof a) == 0;
 }
 
-/// Field by field: what pads a hit may hold anything.
+/// Compares each field: the padding of a hit may hold anything.
 template <class Real>
 [[nodiscard]] bool same_bits(const SurfaceHit<Real>& a, const SurfaceHit<Real>& b)
 {
@@ -46,7 +46,8 @@ template <class Real>
     return a.width == b.width && a.height == b.height && same_bits(a.rgb, b.rgb);
 }
 
-/// How many elements of two lists differ in any bit; an element of the longer list alone differs.
+/// The number of elements of two lists that differ in any bit. Elements beyond the shorter list
+/// count as different.
 template <class List>
 [[nodiscard]] std::size_t different_bits(const List& a, const List& b)
 {

@@ -3,7 +3,7 @@
 #include "scene/object_names.hpp"
 #include <packtrace/scene.hpp>
 
-// Whether two scenes are the same, number for number.
+// Whether all numbers of two scenes are the same.
 namespace packtrace::test {
 
 inline bool same(const Sphere& a, const Sphere& b)
@@ -76,7 +76,7 @@ inline bool same(const Material& a, const Material& b)
             (a.checker->other == b.checker->other && a.checker->size == b.checker->size));
 }
 
-/// The axes of a plane count where it has a checker.
+/// The axes of a plane matter only if it has a checker.
 inline bool same_axes(const Object& a, const Object& b)
 {
     const auto* const one = std::get_if<Plane>(&a.surface);
@@ -108,7 +108,7 @@ inline bool same(const Animation& a, const Animation& b)
            std::equal(a.keys.begin(), a.keys.end(), b.keys.begin(), b.keys.end(), same_key);
 }
 
-/// Objects of `b` have the names that those of `a` without one get.
+/// Unnamed objects of `a` correspond to objects of `b` with generated names.
 inline bool same_objects(const Scene& a, const Scene& b)
 {
     language::DefaultNames names;

@@ -6,7 +6,7 @@
 
 namespace packtrace::test {
 
-/// A way to sample pixels.
+/// Options of pixel sampling.
 struct Sampling {
     const char* name;
     RenderOptions options;

@@ -8,10 +8,10 @@
 #include <filesystem>
 #include <vector>
 
-// The scenes of the folder scenes/, small.
+// The scenes of the folder scenes/, reduced in size.
 namespace packtrace::test {
 
-/// What there is, so that a new scene needs no line here.
+/// Lists the folder, so that a new scene needs no line here.
 [[nodiscard]] inline std::vector<std::filesystem::path> scene_files()
 {
     namespace fs = std::filesystem;
@@ -24,7 +24,7 @@ namespace packtrace::test {
     return files;
 }
 
-/// Small, of odd sides, and of about the scene's own shape.
+/// The scene with few pixels, odd sides, and about its own aspect ratio.
 [[nodiscard]] inline Scene small_scene(const std::filesystem::path& file)
 {
     Scene scene = read_scene(file);
@@ -33,8 +33,8 @@ namespace packtrace::test {
     return scene;
 }
 
-/// The same with a sixth of the pixels where rays branch a dozen times: each has thousands of rays,
-/// and in small_scene() they take ten times as long as all other scenes together.
+/// As small_scene(), but with a sixth of the pixels if rays branch a dozen times: then each pixel
+/// has thousands of rays, and small_scene() takes ten times as long as all other scenes together.
 [[nodiscard]] inline Scene small_or_deep_scene(const std::filesystem::path& file)
 {
     Scene scene = small_scene(file);

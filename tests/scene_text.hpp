@@ -16,7 +16,7 @@ inline Scene parse(const std::string& text)
     return parse_scene(text, "x.scene");
 }
 
-/// The message that `text` is refused with.
+/// The error message for a refused `text`.
 inline std::string error_of(const std::string& text)
 {
     return refusal<SceneError>([&] { return parse(text); });
@@ -24,7 +24,7 @@ inline std::string error_of(const std::string& text)
 
 inline const char* const any_sphere = "sphere { center = (0, 0, 3) radius = 1 }\n";
 
-/// A scene of `text` and something to see.
+/// A scene of `text` and a visible sphere.
 inline Scene parse_with_sphere(const std::string& text)
 {
     return parse(any_sphere + text);
@@ -36,7 +36,7 @@ inline std::string error_of_line(const std::string& line)
     return error_of(any_sphere + line);
 }
 
-/// The scenes that docs/scene.md shows.
+/// The example scenes in docs/scene.md.
 inline std::vector<std::string> scene_examples()
 {
     std::ifstream reference(PACKTRACE_SOURCE_DIR "/docs/scene.md");

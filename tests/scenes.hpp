@@ -68,7 +68,7 @@ inline void set_size(Scene& scene, int width, int height)
     return scene;
 }
 
-/// Numbers for scenes: the same with every compiler and library.
+/// Random numbers for scenes; every compiler and library gives the same numbers.
 class SceneRandom {
 public:
     explicit SceneRandom(unsigned seed) : random_(seed)
@@ -115,7 +115,7 @@ private:
     return scene;
 }
 
-/// Spheres in a room of six planes, its floor and back wall in squares.
+/// Spheres in a room of six planes, with a checkered floor and back wall.
 [[nodiscard]] inline Scene checkered_room(unsigned seed)
 {
     SceneRandom random(seed);

@@ -1,4 +1,4 @@
-# Tests that are scripts rather than Catch2 cases; each has a label, `fast` or `slow`.
+# Tests that are scripts rather than Catch2 cases. Each has a label, `fast` or `slow`.
 function(packtrace_script_test name label script)
     add_test(NAME ${name} COMMAND sh ${CMAKE_CURRENT_SOURCE_DIR}/${script} ${ARGN}
              COMMAND_EXPAND_LISTS)
@@ -19,7 +19,7 @@ if("sse42" IN_LIST PACKTRACE_KERNELS)
         packtrace_script_test(instructions.${isa} fast check_instructions.sh ${CMAKE_OBJDUMP}
                               ${CMAKE_OBJCOPY} ${isa} ${objects})
     endforeach()
-    # Those of the library, in the order in which it holds them.
+    # The library's objects outside the kernels, in the library's order.
     set(host_objects "")
     foreach(target packtrace_objects packtrace_study_objects packtrace_stamp)
         if(TARGET ${target})
@@ -44,9 +44,9 @@ if("sse42" IN_LIST PACKTRACE_KERNELS AND "avx2" IN_LIST PACKTRACE_KERNELS)
     packtrace_script_test(without_avx fast ${without_avx}
                           ${PROJECT_SOURCE_DIR}/scenes/four_spheres.scene "[without_avx],[isa]"
                           ${fail_on_none})
-    # Emulation takes tens of times longer: the families that call each part of the library once.
-    # The others run the same code on more rays, and so do cases tagged [bulk] on more of what the
-    # other cases of their family have.
+    # Emulation takes tens of times longer: it runs only the families that call each part of the
+    # library once. The other families run the same code on more rays, and cases tagged [bulk]
+    # repeat what the other cases of their family test on more data.
     set(emulated "")
     foreach(family IN ITEMS read_scene read_camera read_material read_surface read_transform camera
                             image bvh lowering features onedim onedim_kernel onedim_notation)
@@ -68,8 +68,8 @@ packtrace_script_test(example.scalar_against_simd fast check_examples.sh scalar_
                       ${PROJECT_SOURCE_DIR}/scenes/four_spheres.scene)
 packtrace_script_test(run_script fast check_run.sh ${PROJECT_SOURCE_DIR}/run)
 
-# Users of the library: programs that find it installed, or take it in as a part of their project.
-# A project that took it in installs nothing of it.
+# Users of the library: programs that find it installed, or include it in their project. A project
+# that includes it installs nothing of it.
 if(PACKTRACE_INSTALL AND PROJECT_IS_TOP_LEVEL)
     foreach(way IN ITEMS prefix find_package pkg_config add_subdirectory fetch_content)
         packtrace_script_test(install.${way} fast check_install.sh ${way} ${CMAKE_COMMAND}
@@ -103,7 +103,7 @@ if(packtrace_hardened)
 endif()
 packtrace_script_test(completion fast check_completion.sh ${packtrace_program})
 
-# Documents against what they are made from, and the public headers' comments.
+# Documents against their sources, and the public headers' comments.
 find_package(Python3 COMPONENTS Interpreter)
 if(Python3_Interpreter_FOUND)
     add_test(NAME figures COMMAND ${Python3_EXECUTABLE} -B

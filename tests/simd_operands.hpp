@@ -6,8 +6,7 @@
 #include <limits>
 #include <random>
 
-// Operands for the tests of simd.hpp: every combination of the numbers that break things, and
-// random ones.
+// Operands for the tests of simd.hpp: every combination of difficult numbers, and random numbers.
 namespace packtrace::test {
 
 /// The operands for which an operation keeps its contract.

@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-// Runs single operations of the kernels' simd.hpp on packets, for every instruction set the
-// machine has.
+// Runs single operations of the kernels' simd.hpp on packets, for every instruction set of the
+// machine.
 namespace packtrace::test {
 
 inline constexpr int max_lanes = 16;
@@ -30,14 +30,14 @@ struct Packet {
     std::uint32_t mask = 0;
 };
 
-/// What an operation left, or must leave: in a packet's first lanes.
+/// The actual or expected result of an operation in a packet's first lanes.
 template <class Real>
 struct PacketResult {
     std::vector<Real> reals;
     std::vector<std::int64_t> integers;
 };
 
-/// The kernels this machine can run.
+/// The kernels that this machine can run.
 [[nodiscard]] inline std::vector<const abi::KernelTable*> supported_kernels()
 {
     std::vector<const abi::KernelTable*> tables;

@@ -5,7 +5,7 @@
 #include <bit>
 #include <cmath>
 
-// What each operation of simd.hpp that works lane by lane must give, in plain scalar code.
+// The expected result of each lane-wise operation of simd.hpp, in plain scalar code.
 namespace packtrace::test {
 
 enum class Rounding { twice, fused };
@@ -26,7 +26,7 @@ struct IntOp {
     std::int64_t (*expected)(const Lane<Real>& in);
 };
 
-/// a b + c, in one rounding or in two.
+/// a b + c, with one rounding or with two.
 template <class Real>
 [[nodiscard]] Real scalar_madd(Real a, Real b, Real c, Rounding rounding)
 {
@@ -61,7 +61,7 @@ template <class Real>
         {floor, "floor", everything, [](In in, Rounding) { return std::floor(in.a); }},
         {copysign, "with_sign_of", everything,
          [](In in, Rounding) { return std::copysign(in.a, in.b); }},
-        // With a NaN in either operand the first one comes back, and so it does for -0 and +0.
+        // If either operand is NaN, or the operands are -0 and +0, the result is the first operand.
         {min, "min", everything, [](In in, Rounding) { return in.b < in.a ? in.b : in.a; }},
         {max, "max", everything, [](In in, Rounding) { return in.b > in.a ? in.b : in.a; }},
         {to_real, "to_real", Domain::small_integers,
@@ -73,7 +73,7 @@ template <class Real>
     };
 }
 
-/// Operations that compare or choose; masks are numbers here, 1 for true.
+/// Operations that compare or choose. A mask is a number here, 1 for true.
 template <class Real>
 [[nodiscard]] std::vector<RealOp<Real>> choosing_ops()
 {
@@ -103,7 +103,7 @@ template <class Real>
     };
 }
 
-/// The integer in a lane that `bits` wrap around to.
+/// The integer that `bits` wrap around to in a lane.
 template <class Real>
 [[nodiscard]] std::int64_t wrapped(std::uint64_t bits)
 {

@@ -2,11 +2,11 @@
 
 #include "simd_packet.hpp"
 
-// What the operations of simd.hpp that look across the lanes must give, in plain scalar code.
+// The expected results of the horizontal operations of simd.hpp, in plain scalar code.
 namespace packtrace::test {
 
-/// Such an operation sees a packet whose mask a < b is `mask` too; it must leave as many
-/// values as `expected` gives, in the first lanes.
+/// A horizontal operation gets a packet whose mask a < b is also `mask`. Its result must equal the
+/// values of `expected` in the first lanes.
 template <class Real>
 struct PacketOp {
     abi::SimdOp op;
@@ -14,7 +14,7 @@ struct PacketOp {
     PacketResult<Real> (*expected)(const Packet<Real>& in);
 };
 
-/// Lanes all different, with a < b just in the lanes of `pattern`.
+/// Lanes with different values, and a < b exactly in the lanes of `pattern`.
 template <class Real>
 [[nodiscard]] Packet<Real> packet_of(std::uint32_t pattern, int lanes)
 {

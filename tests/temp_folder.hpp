@@ -13,7 +13,7 @@
 
 namespace packtrace::test {
 
-/// A folder of a test among the system's temporary files, removed with all it holds.
+/// A folder for a test among the system's temporary files, removed with its contents.
 class TempFolder {
 public:
     TempFolder()
@@ -39,7 +39,7 @@ public:
     {
         return path_ / name;
     }
-    /// The names in it, sorted, hidden ones too.
+    /// The sorted names in the folder, including hidden ones.
     [[nodiscard]] std::vector<std::string> names() const
     {
         std::vector<std::string> names;
@@ -60,7 +60,7 @@ inline void write_text(const std::filesystem::path& file, std::string_view text)
 
 [[nodiscard]] inline std::string read_text(const std::filesystem::path& file)
 {
-    // By blocks: one character after the other takes seconds of a picture of many bands.
+    // Reads blocks: reading single characters of a picture with many bands takes seconds.
     std::ifstream input(file, std::ios::binary);
     std::string text;
     std::string block(std::size_t{1} << 16, '\0');

@@ -40,7 +40,7 @@ TEST_CASE("an orbit of four frames stops at the quarters of its circle", "[anima
     const Scene scene = parse_with_sphere(
         "camera { position = (0, 1, -2)  look_at = (0, 1, 3) }\n"
         "animation { frames = 4  orbit { center = (0, 1, 3)  axis = (0, 2, 0) } }");
-    // x goes to z's place about y in the sense of `rotate`: z to x.
+    // A positive rotation about y takes z to x, as `rotate` does.
     const std::vector<Vec3> stops = {{0, 1, -2}, {-5, 1, 3}, {0, 1, 8}, {5, 1, 3}};
     for (int frame = 0; frame < 4; ++frame) {
         CAPTURE(frame);
@@ -62,7 +62,7 @@ TEST_CASE("an orbit starts with the scene's own pose, tilted or not", "[animatio
     for (int axis = 0; axis < 3; ++axis)
         check_near(start.rotation[axis], scene.camera.rotation[axis]);
     CHECK(start.fov == scene.camera.fov);
-    // The rotation stays one, and the height above the centre too.
+    // The rotation stays orthonormal, and the camera stays at the same height above the centre.
     const Camera end = camera_at(scene, 6);
     CHECK(glm::dot(glm::cross(end.rotation[0], end.rotation[1]), end.rotation[2]) == Approx(1.0));
     CHECK(end.position.y == Approx(2.0));

@@ -1,5 +1,5 @@
-// Rays along asymptotes and generators of quadrics, where a in a t² + 2 b t + c is 0 and b may be
-// small: t is -c / 2b, however far.
+// Rays along asymptotes and generators of quadrics. Here a in a t² + 2 b t + c = 0 is 0 and b may
+// be small: the hit is at t = -c / 2b, however far.
 #include "catch.hpp"
 #include "core/quad.hpp"
 #include "packet_ways.hpp"
@@ -42,7 +42,7 @@ const Equation turned_cone{"quadric { coefficients = (0, 0, -0.7, 1.3, 0, 0.4, 0
 
 using Triple = std::array<double, 3>;
 
-/// A number, and the sum of the sizes of what it is the sum of.
+/// A sum, and the sum of the magnitudes of its terms.
 struct Sum {
     Quad value = 0;
     double size = 0;
@@ -54,7 +54,7 @@ struct Sum {
     }
 };
 
-/// The coefficients a, b and c of t² and 2 t and 1 along a ray.
+/// The coefficients a, b and c of a t² + 2 b t + c along a ray.
 std::array<Sum, 3> along(const Equation& equation, const Triple& org, const Triple& dir)
 {
     const auto& k = equation.coefficients;
@@ -78,7 +78,7 @@ std::array<Sum, 3> along(const Equation& equation, const Triple& org, const Trip
     return abc;
 }
 
-/// Where a ray whose a is 0 meets a surface, and by how much of that double may be off.
+/// The hit of a ray with a = 0, and the relative error that double may have there.
 struct OneHit {
     double t;
     double rounding;
@@ -93,7 +93,7 @@ OneHit only_hit(const Equation& equation, const Triple& org, const Triple& dir)
 {
     auto [a, b, c] = along(equation, org, dir);
     REQUIRE(std::abs(static_cast<double>(a.value)) <= 0x1p-52 * a.size);
-    // Axes that are turned are rounded, as if coefficients that are 0 were not.
+    // The coefficients of turned axes are rounded, even those that would be 0.
     if (equation.is_turned) {
         b.size += 2 * largest_of(org) * largest_of(dir);
         c.size += 2 * largest_of(org) * largest_of(org);
@@ -129,13 +129,14 @@ struct AsymptoticRay {
     Triple org, dir;
 };
 
-/// In single precision, as the rays of both are to be.
+/// Rounded to single precision, so that float and double trace the same ray.
 double rounded(double x)
 {
     return static_cast<double>(static_cast<float>(x));
 }
 
-/// Rays of directions along which a is 0, off from where b is 0 by 10^-2 to 10^-7.
+/// Rays with directions that make a zero. Their directions are 10^-2 to 10^-7 off those that make b
+/// zero too.
 std::vector<AsymptoticRay> random_rays(const Equation& surface, const std::vector<Triple>& ways)
 {
     SceneRandom random(11);
@@ -188,7 +189,8 @@ TEST_CASE("rays along asymptotes hit where their equations say", "[asymptotes]")
         check_rays(random_rays(*surface, flat));
 }
 
-TEST_CASE("rays next to asymptotes that were lost or misplaced", "[asymptotes]")
+TEST_CASE("rays next to asymptotes that earlier versions lost or misplaced hit where they should",
+          "[asymptotes]")
 {
     const double far_x = rounded(-0.9917580485343933);
     const double near_x = rounded(0.44015663862228394);
@@ -208,7 +210,7 @@ TEST_CASE("rays next to asymptotes that were lost or misplaced", "[asymptotes]")
         check_rays({ray});
 }
 
-TEST_CASE("a wall behind a far hit of a cone is behind it", "[asymptotes]")
+TEST_CASE("a wall just behind a cone's distant hit does not hide the cone", "[asymptotes]")
 {
     const Scene scene =
         parse_scene("cone { }\nplane { point = (500001, 0, 0)  normal = (1, 0, 0) }\n", "wall", {});

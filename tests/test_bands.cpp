@@ -1,4 +1,4 @@
-// Pictures rendered and written some rows at a time.
+// Pictures that are rendered and written in bands of rows.
 #include "catch.hpp"
 #include "core/cut_rays.hpp"
 #include "image/formats.hpp"
@@ -53,7 +53,7 @@ Image<float> any_picture(int width, int height)
 
 }  // namespace
 
-TEST_CASE("rows rendered in bands have the bits of the whole picture", "[bands]")
+TEST_CASE("a picture rendered in bands has the bits of the whole picture", "[bands]")
 {
     for (const auto& file : scene_files()) {
         Scene scene = small_scene(file);
@@ -66,7 +66,7 @@ TEST_CASE("rows rendered in bands have the bits of the whole picture", "[bands]"
     }
 }
 
-TEST_CASE("the scalar reference renders bands to the bits of the whole picture", "[bands]")
+TEST_CASE("the scalar reference renders bands with the bits of the whole picture", "[bands]")
 {
     Scene scene = read_scene(PACKTRACE_SOURCE_DIR "/scenes/four_spheres.scene");
     set_size(scene, 37, 51);
@@ -80,7 +80,7 @@ TEST_CASE("the scalar reference renders bands to the bits of the whole picture",
     }
 }
 
-TEST_CASE("a picture written by rows is the file that is written whole", "[bands]")
+TEST_CASE("a picture written row by row gives the same file as one written whole", "[bands]")
 {
     const TempFolder folder;
     const Image<float> image = any_picture(61, 50);
@@ -106,7 +106,7 @@ TEST_CASE("a picture written by rows is the file that is written whole", "[bands
     }
 }
 
-TEST_CASE("a PNG made row by row comes in pieces that make the picture", "[bands]")
+TEST_CASE("a PNG written row by row arrives in pieces that make up the picture", "[bands]")
 {
     const Image<float> image = any_picture(300, 40);
     Bytes pieces;
@@ -126,7 +126,7 @@ TEST_CASE("a PNG made row by row comes in pieces that make the picture", "[bands
     CHECK((pieces == encode_png(image, {.recipe = {}, .largest_whole = 0})));
 }
 
-TEST_CASE("what the receiver of a PNG's bytes throws comes out of the call", "[bands]")
+TEST_CASE("an exception of the receiver of a PNG's bytes reaches the caller", "[bands]")
 {
     PngRows rows(4000, 4000, [](std::span<const std::uint8_t> bytes) {
         if (bytes.size() > 1000)
@@ -146,7 +146,7 @@ TEST_CASE("what the receiver of a PNG's bytes throws comes out of the call", "[b
     CHECK_THROWS_WITH(write_all(), "the disk is full");
 }
 
-TEST_CASE("a large picture is not held whole while it is rendered and written", "[bands]")
+TEST_CASE("a large picture is not held in memory while it is rendered and written", "[bands]")
 {
     const TempFolder folder;
     write_text(folder / "one.scene",

@@ -1,4 +1,4 @@
-// The program's `bench`: times against a baseline.
+// The command `bench`: times against a baseline.
 #include "catch.hpp"
 #include "killed_program.hpp"
 #include "run_program.hpp"
@@ -22,8 +22,8 @@ ProgramResult run_bench(const std::vector<std::string>& more, const std::string&
     return run_packtrace(words);
 }
 
-/// A baseline whose ratios are those of `file` times `factor`, of another order of size than any
-/// machine makes of them.
+/// A baseline with the ratios of `file` times `factor`. A factor far from 1 exceeds any difference
+/// between runs on one machine.
 std::string scaled_baseline(const TempFolder& folder, const std::string& file, double factor)
 {
     json baseline = json::parse(read_text(file));
@@ -63,7 +63,7 @@ TEST_CASE("bench writes each line's ratio to the scalar reference", "[bench_cli]
     CHECK(bench["lines"][1]["name"] == "four_spheres, scalar double");
 }
 
-TEST_CASE("bench shows the row that others are compared to", "[bench_cli]")
+TEST_CASE("bench shows the row that the others are compared to", "[bench_cli]")
 {
     const TempFolder folder;
     const std::string file = (folder / "bench.json").string();
@@ -75,8 +75,7 @@ TEST_CASE("bench shows the row that others are compared to", "[bench_cli]")
     CHECK(bench["references"][0]["milliseconds"] > 0.0);
 }
 
-TEST_CASE("bench fails with the line that is slower than the baseline, and only then",
-          "[bench_cli]")
+TEST_CASE("bench fails with the row that is slower than the baseline, and only then", "[bench_cli]")
 {
     const TempFolder folder;
     const std::string file = (folder / "bench.json").string();
@@ -92,7 +91,7 @@ TEST_CASE("bench fails with the line that is slower than the baseline, and only 
     CHECK(run_bench({"--baseline", fast, "--max-slowdown", "1000000"}).exit_code == 0);
 }
 
-TEST_CASE("bench says so, with an exit code of its own, when it can't tell", "[bench_cli]")
+TEST_CASE("bench reports an undecided comparison with an exit code of its own", "[bench_cli]")
 {
     const TempFolder folder;
     const std::string file = (folder / "bench.json").string();
@@ -104,12 +103,12 @@ TEST_CASE("bench says so, with an exit code of its own, when it can't tell", "[b
     CHECK_THAT(result.err, ContainsSubstring("more --repetitions"));
 }
 
-TEST_CASE("bench leaves no program behind that it has started", "[bench_cli]")
+TEST_CASE("bench ends the program that it has started", "[bench_cli]")
 {
     if (std::string_view(PACKTRACE_CLI).ends_with("_emulated"))
         return;
     const TempFolder folder;
-    // Says that it has begun, and that it is told to end.
+    // Reports its start and the signal that ends it.
     const std::filesystem::path other = folder / "other";
     const std::filesystem::path begun = folder / "begun";
     const std::filesystem::path ended = folder / "ended";
@@ -128,9 +127,9 @@ TEST_CASE("bench leaves no program behind that it has started", "[bench_cli]")
     CHECK(is_there(ended));
 }
 
-TEST_CASE("bench compares with another program by turns", "[bench_cli]")
+TEST_CASE("bench alternates its runs with those of another program", "[bench_cli]")
 {
-    // The program starts itself, too, which an emulated one can't.
+    // The program also starts itself, which fails for an emulated program.
     if (std::string_view(PACKTRACE_CLI).ends_with("_emulated"))
         return;
     const TempFolder folder;
@@ -160,7 +159,7 @@ TEST_CASE("bench compares with another program by turns", "[bench_cli]")
     CHECK_THAT(from_input.err, ContainsSubstring("give files"));
 }
 
-TEST_CASE("bench refuses a baseline that is none", "[bench_cli]")
+TEST_CASE("bench refuses a file that is no baseline", "[bench_cli]")
 {
     const TempFolder folder;
     const auto failure = [&](const std::string& text) {
@@ -181,7 +180,7 @@ TEST_CASE("bench refuses a baseline that is none", "[bench_cli]")
         failure(
             R"({"packtrace_bench": 1, "lines": [{"name": "a", "milliseconds": 1, "ratios": [1]}]})"),
         ContainsSubstring("no line of these scenes"));
-    // Another scene of the same name, by itself and beside it.
+    // Another scene of the same name, alone and together with the first.
     write_text(folder / "four_spheres.scene", "sphere { center = (0, 0, 3)  radius = 1 }");
     const std::string kept = (folder / "kept.json").string();
     REQUIRE(run_bench({"-o", kept}, "2").exit_code == 0);

@@ -11,7 +11,7 @@
 #include <limits>
 #include <random>
 
-// The hierarchy's invariants, whatever it is built of.
+// Invariants of the bvh for all kinds of input.
 namespace packtrace {
 namespace {
 
@@ -49,7 +49,8 @@ std::vector<BvhItem> along_a_line(int count, float ratio)
     return items;
 }
 
-/// Every other item far away along some axis, on either side, with faces at `low` and `high`.
+/// Every other item is far away along one of the axes, on either side, with faces at `low` and
+/// `high`.
 std::vector<BvhItem> far_apart(float low, float high)
 {
     std::vector<BvhItem> items = scattered(100, 1);
@@ -91,7 +92,7 @@ std::vector<Items> families()
             {"flat", std::vector<BvhItem>(300, item_at(2.0f, 2.0f, 2.0f, 0.0f, 0))}};
 }
 
-/// Walks a hierarchy and counts what is wrong with it.
+/// Traverses a bvh and counts its faults.
 class Validator {
 public:
     Validator(const Bvh& bvh, const std::vector<BvhItem>& items)
@@ -157,7 +158,7 @@ private:
 
 }  // namespace
 
-TEST_CASE("a hierarchy holds every item once, in boxes inside boxes", "[bvh]")
+TEST_CASE("a bvh holds every item once, in boxes inside boxes", "[bvh]")
 {
     for (const Items& family : families()) {
         INFO(family.name);
@@ -176,7 +177,7 @@ TEST_CASE("a hierarchy holds every item once, in boxes inside boxes", "[bvh]")
     }
 }
 
-TEST_CASE("a face at NaN is taken for one at infinity", "[bvh]")
+TEST_CASE("a face at NaN counts as a face at infinity", "[bvh]")
 {
     constexpr float nan = std::numeric_limits<float>::quiet_NaN();
     constexpr float inf = std::numeric_limits<float>::infinity();
@@ -193,12 +194,12 @@ TEST_CASE("a face at NaN is taken for one at infinity", "[bvh]")
     CHECK(Validator(bvh, unbounded).faults == 0);
 }
 
-TEST_CASE("a hierarchy of nothing has no nodes", "[bvh]")
+TEST_CASE("a bvh without items has no nodes", "[bvh]")
 {
     CHECK(build_bvh({}).nodes.empty());
 }
 
-TEST_CASE("the validator sees a box that is too small", "[bvh]")
+TEST_CASE("the validator detects a box that is too small", "[bvh]")
 {
     std::vector<BvhItem> items = scattered(100, 1);
     const std::vector<BvhItem> as_given = items;
@@ -225,13 +226,13 @@ std::vector<Box4> boxes_of_leaves(const Bvh& bvh, const std::vector<BvhItem>& it
 
 }  // namespace
 
-TEST_CASE("a refitted hierarchy holds every item where it is now", "[bvh]")
+TEST_CASE("a refitted bvh holds every item where it is now", "[bvh]")
 {
     for (const Items& family : families()) {
         CAPTURE(family.name);
         std::vector<BvhItem> sorted = family.items;
         Bvh bvh = build_bvh(sorted);
-        // Without a move nothing changes.
+        // If no item has moved, refitting changes nothing.
         const std::vector<abi::BvhNode> built = bvh.nodes;
         refit_bvh(bvh, boxes_of_leaves(bvh, family.items));
         CHECK(std::memcmp(built.data(), bvh.nodes.data(), built.size() * sizeof built[0]) == 0);
@@ -250,7 +251,7 @@ TEST_CASE("a refitted hierarchy holds every item where it is now", "[bvh]")
     }
 }
 
-TEST_CASE("the cost of a hierarchy grows as its items scatter", "[bvh]")
+TEST_CASE("the cost of a bvh grows as its items scatter", "[bvh]")
 {
     const std::vector<BvhItem> items = scattered(5000, 1);
     std::vector<BvhItem> sorted = items;
@@ -263,7 +264,7 @@ TEST_CASE("the cost of a hierarchy grows as its items scatter", "[bvh]")
     CHECK(surface_area_cost(bvh) > 5.0 * built);
 }
 
-TEST_CASE("a hierarchy does not depend on the number of threads", "[bvh][bulk]")
+TEST_CASE("a bvh does not depend on the number of threads", "[bvh][bulk]")
 {
     const auto built_with = [](int threads) {
         std::vector<BvhItem> items = scattered(100000, 1);
@@ -273,7 +274,7 @@ TEST_CASE("a hierarchy does not depend on the number of threads", "[bvh][bulk]")
     const Bvh two = built_with(2);
     CHECK(one.order == two.order);
     REQUIRE(one.nodes.size() == two.nodes.size());
-    // Field by field: what pads a node may hold anything.
+    // Compares each field: the padding of a node may hold anything.
     const auto same = [](const abi::BvhNode& a, const abi::BvhNode& b) {
         return std::memcmp(a.low, b.low, sizeof a.low) == 0 &&
                std::memcmp(a.high, b.high, sizeof a.high) == 0 &&

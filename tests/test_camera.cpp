@@ -26,13 +26,13 @@ TEST_CASE("a field of view makes the viewport follow the picture's shape", "[cam
     CHECK(glm::length(basis.up - Vec3(0, 2.0 / 100, 0)) < 1e-15);
 }
 
-TEST_CASE("looking along z gives the identity rotation", "[camera]")
+TEST_CASE("a camera that looks along z has the identity rotation", "[camera]")
 {
     const Mat3 rotation = look_at({0, 0, 0}, {0, 0, 5}, {0, 1, 0});
     CHECK(rotation == Mat3(1.0));
 }
 
-TEST_CASE("looking along up is refused", "[camera]")
+TEST_CASE("a camera that looks along its up direction is refused", "[camera]")
 {
     CHECK_THROWS_AS(look_at({0, 0, 0}, {0, 3, 0}, {0, 1, 0}), std::invalid_argument);
 }
@@ -47,7 +47,7 @@ int pixels_hit(const auto& image)
     return count;
 }
 
-/// In single precision and in double, by every instruction set.
+/// Checks single and double precision on every instruction set.
 void check_pixels_hit(const Scene& scene)
 {
     const int truth = pixels_hit(test::render_scalar<long double>(scene));
@@ -61,7 +61,7 @@ void check_pixels_hit(const Scene& scene)
 
 }  // namespace
 
-TEST_CASE("a picture does not hang on how far off its viewport is", "[camera]")
+TEST_CASE("a picture does not depend on the distance of its viewport", "[camera]")
 {
     for (const char* size : {"1e-15", "1e-12", "1e-11", "1e-9", "1", "3e9", "1e11", "1e13"}) {
         CAPTURE(size);
@@ -76,7 +76,7 @@ TEST_CASE("a picture does not hang on how far off its viewport is", "[camera]")
     }
 }
 
-TEST_CASE("views of nearly half a turn lose no object of any tile", "[camera]")
+TEST_CASE("views of nearly 180 degrees lose no object in any tile", "[camera]")
 {
     const char* const scenes[] = {
         "image_size = 21 x 36  viewport_size = 5078.18 x 0.619306\n"

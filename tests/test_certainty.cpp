@@ -1,4 +1,4 @@
-// Which rays single precision is unsure of: by pixel, by cause, and what refuses to tell.
+// Rays that single precision is unsure of: by pixel, by cause, and which requests are refused.
 #include "catch.hpp"
 #include "memory_limit.hpp"
 #include "run_program.hpp"
@@ -44,7 +44,8 @@ std::string touched_balls(int number)
     return text;
 }
 
-/// Drums whose front rims camera rays hit: one behind the other, each seen a pixel wider.
+/// Drums whose front rims camera rays hit. They stand behind each other; each appears a pixel wider
+/// than the one in front.
 std::string drums(int number)
 {
     std::string text;
@@ -58,7 +59,7 @@ std::string drums(int number)
     return text;
 }
 
-/// Many balls over each other.
+/// A grid of `edge` by `edge` balls.
 std::string balls(int edge)
 {
     std::string text;
@@ -81,7 +82,7 @@ const std::string lights =
     "light { type = point  position = (3, 5, -4)  intensity = 0.6 }\n"
     "light { type = directional  direction = (1, 4, -2)  intensity = 0.3 }\n";
 
-/// Two balls that are nearly one: where both are hit, nothing tells which is first.
+/// Two nearly equal balls: where a ray hits both, rounding decides which is first.
 const std::string twins =
     "sphere { center = (0, 0, 6)  radius = 1  color = (200, 90, 9) }\n"
     "sphere { center = (0, 0, 6)  radius = 1.0000000000000002  color = (9, 90, 200) }\n";
@@ -102,8 +103,8 @@ PixelCertainty sum_of(const std::vector<PixelCertainty>& pixels)
     return sum;
 }
 
-/// What the kernels that render the scene in streams trace again, as those with probes do: paths in
-/// registers have other bounds.
+/// The number of rays that the kernels for streams trace again. The kernels with probes use streams
+/// too; paths in registers have other error bounds.
 std::uint64_t unsure_in_frame(const Scene& scene, RenderOptions options)
 {
     options.force_general = true;
@@ -122,7 +123,7 @@ bool same_pixels(const Certainty& a, const Certainty& b)
 
 }  // namespace
 
-TEST_CASE("the rays traced again are those of the frame, in lists and hierarchies", "[certainty]")
+TEST_CASE("the rays traced again are those of the frame, by lists and by a bvh", "[certainty]")
 {
     for (const std::string& objects : {touched_balls(4), twins, touched_balls(40), drums(9)})
         for (const IsaInfo& isa : list_isas()) {
@@ -140,7 +141,7 @@ TEST_CASE("the rays traced again are those of the frame, in lists and hierarchie
                 const PixelCertainty pixels = sum_of(certainty.pixels);
                 CHECK(pixels.unsure == unsure);
                 CHECK(pixels.undecided == certainty.undecided);
-                // But for camera rays of tiles that meet nothing.
+                // Certainty omits camera rays of tiles without a hit.
                 CHECK(pixels.rays <= certainty.rays.total());
                 CHECK(pixels.rays + certainty.rays.camera >= certainty.rays.total());
                 for (const PixelCertainty& pixel : certainty.pixels) {
@@ -151,9 +152,9 @@ TEST_CASE("the rays traced again are those of the frame, in lists and hierarchie
         }
 }
 
-TEST_CASE("every ray of a pixel's tree is counted there", "[certainty]")
+TEST_CASE("a pixel counts every ray of its tree", "[certainty]")
 {
-    // One pixel: a camera ray, its shadow rays, a mirrored ray and those of what it hits.
+    // One pixel: a camera ray, its shadow rays, a mirrored ray and the rays of its hit.
     Scene scene = scene_of(
         "sphere { center = (0, 0, 6)  radius = 4  color = (200, 90, 9)  reflective = 0.5 }\n" +
         lights);
@@ -174,7 +175,7 @@ TEST_CASE("certainty does not depend on the number of threads", "[certainty]")
     CHECK(same_pixels(one, find_certainty(scene, options)));
 }
 
-TEST_CASE("several samples a pixel have several times the rays", "[certainty]")
+TEST_CASE("pixels with several samples have several times the rays", "[certainty]")
 {
     const Scene scene = scene_of(balls(5) + lights);
     RenderOptions options;
@@ -186,26 +187,26 @@ TEST_CASE("several samples a pixel have several times the rays", "[certainty]")
     CHECK(sum_of(more.pixels).unsure == more.rays.unsure);
 }
 
-TEST_CASE("single precision is unsure for five causes, each with its scene", "[certainty]")
+TEST_CASE("single precision is unsure for five causes, and a scene shows each", "[certainty]")
 {
     const auto counts = [](const std::string& objects, const std::string& more = lights) {
         return find_certainty(scene_of(objects + more)).unsure;
     };
     // Silhouettes.
     CHECK(counts(touched_balls(40))[tangent] > 20);
-    // A plane that lies on the ball's middle to within a rounding of the other.
+    // Two planes that differ by less than a rounding error.
     const auto planes = counts(
         "plane { point = (0, -1, 0)  normal = (0, 1, 0)  color = (9, 9, 9) }\n"
         "plane { point = (0, -1.00000001, 0)  normal = (0, 1, 0)  color = (200, 9, 9) }\n");
     CHECK(planes[order] > 1000);
     CHECK(counts(twins)[order] > 500);
-    // A light in the very surface of a ball ends its shadow rays there.
+    // A light exactly on the surface of a ball: its shadow rays end on the surface.
     CHECK(counts("plane { point = (0, -1, 0)  normal = (0, 1, 0)  color = (9, 9, 9) }\n"
                  "sphere { center = (0, 2, 6)  radius = 1  color = (200, 90, 9) }\n",
                  "light { type = point  position = (0, 1, 6)  intensity = 1 }\n")[range] > 100);
     // Rims.
     CHECK(counts(drums(9))[clip] > 10);
-    // Sizes beyond the proofs: every ray goes to double.
+    // Sizes beyond the proven range: every ray goes to double.
     const Certainty far = find_certainty(
         scene_of("sphere { center = (0, 0, 6)  radius = 1  color = (9, 9, 9) }\n"
                  "sphere { center = (0, -1e12, 0)  radius = 1e11  color = (9, 9, 9) }\n" +
@@ -214,11 +215,11 @@ TEST_CASE("single precision is unsure for five causes, each with its scene", "[c
     CHECK(far.unsure[magnitude] == sum_of(far.unsure));
 }
 
-TEST_CASE("double cannot decide between surfaces that are a rounding apart", "[certainty]")
+TEST_CASE("double cannot decide between surfaces that are a rounding error apart", "[certainty]")
 {
     const Certainty apart = find_certainty(scene_of(twins + lights));
     CHECK(apart.undecided > 0);
-    // What single precision alone cannot tell, double can.
+    // Double decides what single precision alone cannot.
     const Certainty clear = find_certainty(scene_of(
         "plane { point = (0, -1, 0)  normal = (0, 1, 0)  color = (9, 9, 9) }\n"
         "plane { point = (0, -1.00000001, 0)  normal = (0, 1, 0)  color = (200, 9, 9) }\n" +
@@ -227,7 +228,7 @@ TEST_CASE("double cannot decide between surfaces that are a rounding apart", "[c
     CHECK(clear.undecided == 0);
 }
 
-TEST_CASE("the picture has both shares of each pixel", "[certainty]")
+TEST_CASE("the picture shows both shares of each pixel", "[certainty]")
 {
     Certainty certainty;
     certainty.width = 3;
@@ -239,7 +240,7 @@ TEST_CASE("the picture has both shares of each pixel", "[certainty]")
     CHECK(std::equal(expected.begin(), expected.end(), picture.rgb.begin(), picture.rgb.end()));
 }
 
-TEST_CASE("what has no unsure rays is refused", "[certainty]")
+TEST_CASE("requests that have no unsure rays are refused", "[certainty]")
 {
     Certainty more;
     more.width = more.height = 1;
@@ -304,7 +305,7 @@ TEST_CASE("render paints certainty beside the picture", "[certainty]")
     }
 }
 
-TEST_CASE("certainty of a picture that memory does not hold is refused before the picture",
+TEST_CASE("certainty of a picture too large for memory is refused before the picture is rendered",
           "[certainty]")
 {
     const std::string limit = memory_limit(4'000'000);

@@ -20,7 +20,7 @@
 namespace packtrace::test {
 namespace {
 
-/// How many hits the endless ray has in all.
+/// The total number of hits of a ray without end.
 template <class Real>
 std::size_t count_hits(const Scene& scene, const RenderOptions& options, const Vec3& org,
                        const Vec3& dir)
@@ -44,7 +44,7 @@ Object capped_cylinder()
     return object;
 }
 
-/// Every capped kind, from inside and from outside, half of the rays at rims.
+/// Tests every capped kind from inside and from outside; half of the rays are aimed at rims.
 void check_closed(int rays, std::uint64_t seed)
 {
     const lab::StressOptions options{.families = {"closed-bodies", "rims-outside"},
@@ -94,7 +94,7 @@ Object capped_body(const glm::dvec4& squares_and_constant, double linear, const 
     return object;
 }
 
-/// Every capped kind: cylinder, band of an ellipsoid, cone's frustum, paraboloid, hyperboloids of
+/// Every capped kind: cylinder, band of an ellipsoid, truncated cone, paraboloid, hyperboloids of
 /// one sheet and of two.
 std::vector<Object> capped_bodies(std::mt19937_64& random)
 {
@@ -106,14 +106,14 @@ std::vector<Object> capped_bodies(std::mt19937_64& random)
             capped_body({1, 1, -1, 0.25}, 0, {-1.5, 1}, random)};
 }
 
-/// How far from the axis the side of such a body, as defined, is at height z.
+/// The radius at height z of the side of such a body, by its definition.
 double rim_radius(const Quadric& quadric, double z)
 {
     const auto& k = quadric.coefficients;
     return std::sqrt(std::max(0.0, -(k[2] * z * z + k[8] * z + k[9]) / k[0]));
 }
 
-/// A place on a rim, a little inside or outside of it or right there as often.
+/// A point near a rim: in equal shares a little inside, a little outside, or exactly on the rim.
 glm::dvec3 near_rim(const Quadric& quadric, std::mt19937_64& random)
 {
     std::uniform_real_distribution<double> unit(0, 1);
@@ -124,7 +124,7 @@ glm::dvec3 near_rim(const Quadric& quadric, std::mt19937_64& random)
     return {r * std::cos(turn), r * std::sin(turn), z};
 }
 
-/// Rays through places near the rims of one body.
+/// Rays through points near the rims of one body.
 template <class Real>
 RayColumns<Real> rays_at_rims(const Object& body, int count, std::mt19937_64& random)
 {
@@ -140,8 +140,8 @@ RayColumns<Real> rays_at_rims(const Object& body, int count, std::mt19937_64& ra
     return rays;
 }
 
-/// Follows rays straight on through a body by the surfaces they start on; returns how many enter it
-/// and do not leave it, or leave what they have not entered.
+/// Follows rays straight on through a body, each from the surface it starts on. Returns the number
+/// of rays that enter the body and do not leave it, or leave it without having entered.
 template <class Real>
 int count_open_paths(const RayScene<Real>& scene, RayColumns<Real> rays)
 {
@@ -163,7 +163,7 @@ int count_open_paths(const RayScene<Real>& scene, RayColumns<Real> rays)
             const Real slope = c[3][i] * hits.normal[0][i] + c[4][i] * hits.normal[1][i] +
                                c[5][i] * hits.normal[2][i];
             const bool goes_in = slope < 0;
-            // A tangent's slope may have either sign: the second hit of a touch is the same place.
+            // At a tangent hit n·d may have either sign: both hits are at one point.
             open += goes_in == inside[i] && std::abs(slope) > Real(1e-3);
             inside[i] = !inside[i];
             for (std::size_t axis = 0; axis < 3; ++axis)
@@ -177,7 +177,7 @@ int count_open_paths(const RayScene<Real>& scene, RayColumns<Real> rays)
     return open;
 }
 
-/// Rays from within a body, every second one aimed at a rim.
+/// Rays from inside a body; every second one is aimed at a rim.
 template <class Real>
 RayColumns<Real> rays_from_within(const Object& body, int count, std::mt19937_64& random)
 {
@@ -193,7 +193,7 @@ RayColumns<Real> rays_from_within(const Object& body, int count, std::mt19937_64
         const double z = glm::mix(quadric.z_range->low, quadric.z_range->high, share);
         const double turn = 6.2831853 * unit(random);
         const double r = 0.9 * rim_radius(quadric, z) * unit(random);
-        // Between the two halves of a hyperboloid of two sheets nothing is inside.
+        // Between the two sheets of a hyperboloid no point is inside.
         if (r == 0)
             continue;
         const glm::dvec3 from = to_world({r * std::cos(turn), r * std::sin(turn), z});
@@ -205,7 +205,7 @@ RayColumns<Real> rays_from_within(const Object& body, int count, std::mt19937_64
     return rays;
 }
 
-/// How many of the rays leave the body as often as they enter it: none does.
+/// The number of rays that leave the body as often as they enter it; 0 if the body is closed.
 template <class Real>
 int count_not_left(const RayScene<Real>& scene, const RayColumns<Real>& rays)
 {
@@ -216,7 +216,7 @@ int count_not_left(const RayScene<Real>& scene, const RayColumns<Real>& rays)
     return wrong;
 }
 
-/// The same by one instruction set for every capped kind.
+/// The check on one instruction set for every capped kind.
 void check_left_from_within(const std::string& isa, int rays_of_each, std::uint64_t seed)
 {
     constexpr int at_once = 100'000;
@@ -244,7 +244,8 @@ TEST_CASE("rays from within a capped body leave it once more than they enter it"
         check_left_from_within(isa, 4000, 31);
 }
 
-// PACKTRACE_CLOSED_RAYS asks for more than the suite has time for, such as ten million.
+// PACKTRACE_CLOSED_RAYS sets a number of rays larger than the suite has time for, such as ten
+// million.
 TEST_CASE("many rays from within a capped body leave it once more than they enter it",
           "[closed_bodies][slow]")
 {
@@ -252,7 +253,7 @@ TEST_CASE("many rays from within a capped body leave it once more than they ente
     check_left_from_within(choose_isa().name, wanted != nullptr ? std::atoi(wanted) : 200'000, 32);
 }
 
-TEST_CASE("paths that go on from hits at rims leave every capped body they enter",
+TEST_CASE("paths that continue from hits at rims leave every capped body they enter",
           "[closed_bodies]")
 {
     for (const std::string& isa : supported_isas()) {
@@ -269,7 +270,7 @@ TEST_CASE("paths that go on from hits at rims leave every capped body they enter
     }
 }
 
-TEST_CASE("a line that only touches a rim has two hits there, or none", "[closed_bodies]")
+TEST_CASE("a line that only touches a rim hits it twice or misses it", "[closed_bodies]")
 {
     Scene scene{.objects = {capped_cylinder()}};
     std::vector<RenderOptions> all(1);
@@ -284,7 +285,7 @@ TEST_CASE("a line that only touches a rim has two hits there, or none", "[closed
         for (const double side : {1.0, -1.0})
             for (const double cap : {1.0, -1.0}) {
                 CAPTURE(options.isa, side, cap);
-                // Past the rim at (side, 0, cap), down to it and up to it.
+                // Past the rim at (side, 0, cap), downwards and upwards.
                 CHECK(count_hits<float>(scene, options, {0, 0, 2 * cap}, {side, 0, -cap}) == 2);
                 CHECK(count_hits<double>(scene, options, {0, 0, 2 * cap}, {side, 0, -cap}) == 2);
                 CHECK(count_hits<double>(scene, options, {2 * side, 0, 0}, {-side, 0, cap}) == 2);

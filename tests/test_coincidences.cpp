@@ -1,4 +1,4 @@
-// What lies exactly where something begins: hits in the plane of projection, rays along and on
+// Exact coincidences: hits in the plane of projection, rays along surfaces and rays that start on
 // surfaces.
 #include "catch.hpp"
 #include "lab/soak/soak.hpp"
@@ -21,7 +21,7 @@ namespace {
 
 constexpr Accuracy both[] = {Accuracy::exact, Accuracy::fast};
 
-/// The models of illumination, and a material for each that has no highlight to speak of.
+/// The illumination models, each with a material that has next to no highlight.
 constexpr std::pair<const char*, const char*> matt_in_each_model[] = {
     {"scratch", ""},
     {"sketch", "diffuse = 0.6"},
@@ -31,9 +31,9 @@ constexpr std::pair<const char*, const char*> matt_in_each_model[] = {
 
 }  // namespace
 
-TEST_CASE("What lies in the plane of projection is seen", "[coincidences]")
+TEST_CASE("An object in the plane of projection is visible", "[coincidences]")
 {
-    // Note 001 looks for t from 1 on: the wall is at t = 1 in all of the picture.
+    // Note 001's rays start at t = 1, and the wall is at t = 1 in the whole picture.
     const Scene scene = parse_scene(R"(
         illumination = scratch
         image_size = 8 x 8
@@ -53,7 +53,8 @@ TEST_CASE("What lies in the plane of projection is seen", "[coincidences]")
         }
 }
 
-TEST_CASE("A ray that only touches the sphere it starts on meets it in no query", "[coincidences]")
+TEST_CASE("A ray that only touches the sphere it starts on does not hit it in any query",
+          "[coincidences]")
 {
     const Scene scene = parse_scene("sphere { center = (0, 2, 1)  radius = 1 }", "ball", {});
     const Ray<double> ray{{-0.0, 2, 0}, {0.12511034345577374, -0.25022068691154747, 0}};
@@ -67,10 +68,10 @@ TEST_CASE("A ray that only touches the sphere it starts on meets it in no query"
         }
 }
 
-TEST_CASE("The near side is hit of what is so thin that both its roots round to one number",
+TEST_CASE("The near side of a very thin object is hit even if both roots round to one number",
           "[coincidences]")
 {
-    // Single precision's numbers are 1.2e-4 apart at 1000 and more.
+    // Adjacent numbers in single precision are 1.2e-4 apart at 1000 and more.
     const Scene scene = parse_scene(R"(
         ellipsoid { scale = (1, 1, 1e-4)  translate = (0, 0, 1500) }
         quadric { coefficients = (0, 0, 1, 0, 0, 0, 0, 0, 0, -1)  scale = (1, 1, 5e-5)
@@ -109,8 +110,8 @@ Scene lens_of_a_large_ball(const std::string& base)
         "lens", {});
 }
 
-/// Rays that nearly run in the plane z = base and cross it within the lens: the largest error of t,
-/// in the last digits of `Real`; infinite where one misses.
+/// Rays that run nearly in the plane z = base and hit it within the lens: the largest error of t in
+/// units of `Real`'s last place; infinite if a ray misses.
 template <class Real>
 double cap_error(const RayScene<Real>& traced, double base)
 {
@@ -125,7 +126,7 @@ double cap_error(const RayScene<Real>& traced, double base)
         ray.dir[0] = 1;
         ray.dir[1] = static_cast<Real>(random.between(-0.01, 0.01));
         ray.dir[2] = static_cast<Real>(climb);
-        // The difference of numbers so near to each other is exact.
+        // The difference of numbers this close to each other is exact.
         const double t = (base - static_cast<double>(ray.org[2])) / static_cast<double>(ray.dir[2]);
         const Vec3 met = Vec3(ray.org[0], ray.org[1], 0) + t * Vec3(ray.dir[0], ray.dir[1], 0);
         if (t <= 0 || met.x * met.x + met.y * met.y > 0.9)
@@ -141,7 +142,7 @@ double cap_error(const RayScene<Real>& traced, double base)
 
 }  // namespace
 
-TEST_CASE("A cap is met at its own plane, however far the quadric's centre is from it",
+TEST_CASE("A cap is hit at its own plane, however far away the quadric's centre is",
           "[coincidences]")
 {
     for (const char* base : {"0", "1000.1", "-77.3"}) {
@@ -155,10 +156,11 @@ TEST_CASE("A cap is met at its own plane, however far the quadric's centre is fr
     }
 }
 
-TEST_CASE("A ray along an asymptote of a turned quadric meets it once, wherever its axes lie",
+TEST_CASE("A ray along an asymptote of a turned quadric hits it once, wherever its axes lie",
           "[coincidences]")
 {
-    // xy + xz = z is linear along rays of one x; its axes lie in between those of the world.
+    // xy + xz = z is linear along rays of constant x. Its axes are not parallel to the world's
+    // axes.
     const Scene scene =
         parse_scene("quadric { coefficients = (0, 0, 0, 1, 1, 0, 0, 0, -1, 0) }", "turned", {});
     SceneRandom random(21);
@@ -168,7 +170,8 @@ TEST_CASE("A ray along an asymptote of a turned quadric meets it once, wherever 
         const RayScene<float> single(scene, options);
         int wrong = 0;
         for (int i = 0; i < 300; ++i) {
-            // In quarters, so that all products are exact; the rays stay in a plane of one x.
+            // Multiples of a quarter, so that all products are exact. The rays stay in a plane of
+            // constant x.
             const auto quarters = [&] { return std::floor(random.between(-8, 9)) / 4; };
             const double x = quarters();
             const double y = quarters();
@@ -196,7 +199,7 @@ TEST_CASE("A ray along an asymptote of a turned quadric meets it once, wherever 
 
 namespace {
 
-/// A carpet in the very place of the floor, seen from 1000 away.
+/// A carpet in exactly the plane of the floor, seen from 1000 away.
 Scene carpet_on_floor(const std::string& illumination, const std::string& material)
 {
     return parse_scene("illumination = " + illumination + R"(
@@ -212,7 +215,7 @@ Scene carpet_on_floor(const std::string& illumination, const std::string& materi
 
 }  // namespace
 
-TEST_CASE("Surfaces in one place do not shadow each other, seen from however far", "[coincidences]")
+TEST_CASE("Coincident surfaces do not shadow each other, from any distance", "[coincidences]")
 {
     for (const auto& [illumination, material] : matt_in_each_model) {
         const Scene scene = carpet_on_floor(illumination, material);
@@ -233,8 +236,8 @@ TEST_CASE("Surfaces in one place do not shadow each other, seen from however far
 
 namespace {
 
-/// A ball on a floor in the light of a lamp at (0, `height`, 3), below, on or in a surface that has
-/// its lowest or, seen from inside, its highest point at height 2 there.
+/// A ball on a floor, lit by a lamp at (0, `height`, 3). The lamp is below, on or inside `surface`,
+/// whose lowest (or, seen from inside, highest) point is at height 2 there.
 Scene lit_from(const std::string& height, const std::string& surface,
                const std::string& illumination, const std::string& material)
 {
@@ -252,7 +255,7 @@ Scene lit_from(const std::string& height, const std::string& surface,
 
 }  // namespace
 
-TEST_CASE("A lamp on a surface lights what is before it as one a little off it does",
+TEST_CASE("A lamp on a surface lights the same points as a lamp slightly in front of it",
           "[coincidences]")
 {
     const std::string surfaces[] = {
@@ -291,7 +294,7 @@ TEST_CASE("A lamp on a surface lights what is before it as one a little off it d
 
 namespace {
 
-/// Glass that stands on a floor or on other glass, `floor` high.
+/// Glass that stands on a floor at height `floor` or on other glass.
 Scene standing_glass(const std::string& floor, const std::string& bodies)
 {
     return parse_scene(R"(
@@ -306,7 +309,7 @@ Scene standing_glass(const std::string& floor, const std::string& bodies)
                        "glass", {});
 }
 
-/// A capped quadric upright on the floor.
+/// A capped quadric that stands upright on the floor.
 std::string glass_on(const std::string& floor, const std::string& what, const std::string& ior)
 {
     return what + "  capped = yes  rotate = (1, 0, 0, -90)  translate = (0.1, " + floor +
@@ -315,7 +318,7 @@ std::string glass_on(const std::string& floor, const std::string& what, const st
 
 }  // namespace
 
-TEST_CASE("Where a body of glass stands on another body the first in the scene is hit",
+TEST_CASE("Where a glass body stands on another, the first one in the scene is hit",
           "[coincidences]")
 {
     for (const std::string floor : {"-1", "-0.7"}) {
@@ -340,10 +343,10 @@ TEST_CASE("Where a body of glass stands on another body the first in the scene i
     }
 }
 
-TEST_CASE("A quadric is seen in its own place, though that is no number of single precision",
+TEST_CASE("A quadric is seen in its own place, even if single precision cannot hold that place",
           "[coincidences]")
 {
-    // Such numbers are 0.06 apart there.
+    // Adjacent numbers in single precision are 0.06 apart there.
     const Scene scene = parse_scene(R"(
         illumination = whitted
         image_size = 64 x 64
@@ -362,9 +365,10 @@ TEST_CASE("A quadric is seen in its own place, though that is no number of singl
         }
 }
 
-TEST_CASE("Rays of the smallest directions are not blocked by what they pass", "[coincidences]")
+TEST_CASE("Rays with the shortest directions are not occluded by objects that they pass",
+          "[coincidences]")
 {
-    // The line passes the sphere at 1.0074 of its radius; squares of single precision underflow.
+    // The line passes the sphere at 1.0074 times its radius; squares in single precision underflow.
     const Scene scene = parse_scene(
         "sphere { center = (5.8765989623179028e-11, -3.0423624523883822e-10, "
         "9.0241271561315684e-11)  radius = 1e-10 }",
@@ -379,11 +383,11 @@ TEST_CASE("Rays of the smallest directions are not blocked by what they pass", "
     }
 }
 
-TEST_CASE("Rays along planes meet them nowhere, however the planes are turned", "[coincidences]")
+TEST_CASE("Rays along planes never hit them, however the planes are turned", "[coincidences]")
 {
     struct Turned {
         const char* normal;
-        Vec3 along;  ///< across the normal, as is `other`
+        Vec3 along;  ///< perpendicular to the normal, as is `other`
         Vec3 other;
     };
     const Turned turned[] = {{"(1, 1, 0)", {1, -1, 0}, {0, 0, 1}},
@@ -395,15 +399,15 @@ TEST_CASE("Rays along planes meet them nowhere, however the planes are turned", 
         CAPTURE(normal);
         const Scene scene = parse_scene(
             std::string("plane { point = (3, -2, 7)  normal = ") + normal + " }", "turned", {});
-        // Only `exact` tells.
+        // Only `exact` decides this.
         for (const RenderOptions& options : packet_ways()) {
             const RayScene<float> single(scene, options);
             const RayScene<double> wide(scene, options);
-            // Without fused products doubles have no more digits.
+            // Without fused products doubles have no spare digits.
             const bool fused = options.isa != "sse42";
             int hits = 0;
             for (int i = 0; i < 200; ++i) {
-                // Whole numbers that are exact in every product and sum.
+                // Whole numbers, so that all products and sums are exact.
                 const double a = std::round(random.between(-999, 999));
                 const double b = std::round(random.between(-999, 999));
                 const Vec3 dir = a * along + b * other;
@@ -432,7 +436,8 @@ TEST_CASE("Rays along planes meet them nowhere, however the planes are turned", 
     }
 }
 
-TEST_CASE("Scenes of much that coincides have the same bits in every way", "[coincidences]")
+TEST_CASE("Scenes with many coincidences give the same bits in every way of tracing",
+          "[coincidences]")
 {
     const tbb::global_control threads(tbb::global_control::max_allowed_parallelism, 3);
     const lab::SoakOptions options{.scenes = 96, .aligned = true};

@@ -1,4 +1,4 @@
-// A caller's rays that run together hit what each of them hits alone, bit for bit.
+// A caller's coherent rays hit what each ray hits alone, bit for bit.
 #include "catch.hpp"
 #include "few_objects.hpp"
 #include "render_scene.hpp"
@@ -10,7 +10,7 @@
 namespace packtrace::test {
 namespace {
 
-/// Rays of a small picture, in packets of neighbours, from the eye or from places around it.
+/// Rays of a small picture in packets of neighbours, from the eye or from points around it.
 std::vector<Ray<float>> rays_of(const Scene& scene, unsigned seed)
 {
     SceneRandom random(seed);
@@ -43,7 +43,7 @@ std::vector<Ray<float>> rays_of(const Scene& scene, unsigned seed)
 
 }  // namespace
 
-TEST_CASE("rays that run together hit what each hits alone", "[common_hits]")
+TEST_CASE("coherent rays hit what each ray hits alone", "[common_hits]")
 {
     std::size_t found = 0;
     for (unsigned seed = 1; seed <= scene_count(120); ++seed) {

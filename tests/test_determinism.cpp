@@ -1,4 +1,4 @@
-// The picture has the same bits whatever the width of packets and the number of threads.
+// The picture has the same bits for every packet width and number of threads.
 #include "catch.hpp"
 #include "packet_scenes.hpp"
 #include "render_scene.hpp"
@@ -10,7 +10,7 @@
 namespace packtrace::test {
 namespace {
 
-/// Lets TBB use that many threads, also where the machine has fewer.
+/// Lets TBB use this number of threads, even if the machine has fewer.
 class Parallelism {
 public:
     explicit Parallelism(std::size_t threads)
@@ -105,7 +105,7 @@ TEST_CASE("a renderer gives the same picture every time", "[determinism]")
     }
 }
 
-TEST_CASE("without fused multiply-add the picture is close to that with it", "[determinism]")
+TEST_CASE("pictures with and without fused multiply-add are close", "[determinism]")
 {
     const Scene scene = four_spheres(251, 251);
     const auto isas = supported_isas();

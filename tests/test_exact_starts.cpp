@@ -1,5 +1,6 @@
-// Rays of numbers with structure, for which nothing is to be rounded: through poles that clips
-// touch, from points of a surface, from far along a cylinder, and at coefficients of unlike sizes.
+// Rays with special numbers for which rounding errors are not acceptable: through poles that clips
+// touch, from points of a surface, from far along a cylinder, and at coefficients of very different
+// sizes.
 #include "catch.hpp"
 #include "packet_ways.hpp"
 #include "scenes.hpp"
@@ -59,7 +60,7 @@ void check_known(const std::vector<KnownHit>& hits)
             }
 }
 
-/// A hit's place, and where a ray starts that leaves it on the inner side.
+/// The point of a hit, and the origin of a ray that leaves it on the inner side.
 template <class Real>
 struct InnerStart {
     std::int32_t object = -1;
@@ -86,13 +87,13 @@ InnerStart<Real> inner_start(const RayScene<Real>& scene, const Ray<Real>& ray)
     return start;
 }
 
-/// An open quadric that its z_range touches at a pole, without what places it.
+/// An open quadric that its z_range touches at a pole, without its transform.
 struct Bowl {
     std::string text;
-    double pole, eye;  ///< own heights
+    double pole, eye;  ///< heights in object space
 };
 
-/// Rays go from an eye on the axis to the bowl, and from there to its pole.
+/// Rays from an eye on the axis to the bowl, and from the bowl to its pole.
 template <class Real>
 void check_pole(const Scene& scene, const Bowl& bowl, const RenderOptions& options)
 {
@@ -110,7 +111,7 @@ void check_pole(const Scene& scene, const Bowl& bowl, const RenderOptions& optio
         const InnerStart<Real> start =
             inner_start(rays, ray_of<Real>({eye.x, eye.y, eye.z}, {way.x, way.y, way.z}));
         REQUIRE(start.object == 0);
-        // Or a little beside the pole, where double rounds what it may hit.
+        // For double, aims a little beside the pole: at the pole itself rounding may decide.
         const double beside = i % 2 == 0 && sizeof(Real) == sizeof(float) ? 0.0 : 1e-4;
         const Vec3 pole =
             world(random.between(-beside, beside), random.between(-beside, beside), bowl.pole);
@@ -165,7 +166,7 @@ TEST_CASE("a clip that touches a pole cuts no hole there", "[exact_starts]")
     }
 }
 
-TEST_CASE("a ray from inside a bowl leaves it through its pole, too", "[exact_starts]")
+TEST_CASE("a ray from inside a bowl leaves it through its pole too", "[exact_starts]")
 {
     const std::string placed = " scale = (0.3, 0.3, 0.4)  rotate = (1, 2, 3, 40) }";
     for (const Bowl& bowl :
@@ -180,7 +181,7 @@ TEST_CASE("a ray from inside a bowl leaves it through its pole, too", "[exact_st
     }
 }
 
-TEST_CASE("a ray from a point of a surface does not meet it there", "[exact_starts]")
+TEST_CASE("a ray from a point of a surface does not hit the surface there", "[exact_starts]")
 {
     check_known({{quadric("0,0,1,0,0,0,-1,0,0,0"), {0, -2, 0}, {2, 3, 6}, 1.0 / 18},
                  {quadric("2,2,0,0,0,0,-1,0,0,0"), {0, 0, 2}, {1, -3, -5}, 0.05},
@@ -192,7 +193,7 @@ TEST_CASE("a ray from a point of a surface does not meet it there", "[exact_star
                  {"paraboloid { }", {0, 0, 0}, {1, 2, 3}, 0.6}});
 }
 
-TEST_CASE("far along a cylinder is no distance", "[exact_starts]")
+TEST_CASE("a distant origin along a cylinder does not count as a distance to it", "[exact_starts]")
 {
     check_known(
         {{"cylinder { }", {0, 0.25, 1e9}, {-12, -3, -4}, 1.0 / 12 + 0.25 / 3 - 0.25 / 3},
@@ -208,7 +209,7 @@ TEST_CASE("far along a cylinder is no distance", "[exact_starts]")
     }
 }
 
-TEST_CASE("coefficients along the world's axes count, however small", "[exact_starts]")
+TEST_CASE("coefficients along the world's axes count, however small they are", "[exact_starts]")
 {
     const std::string needle = quadric("1,1,1e-13,0,0,0,0,0,0,-1");
     check_known({{needle, {0.5, 0, -1e7}, {0, 0, 1}, 1e7 - std::sqrt(0.75e13)},

@@ -31,7 +31,7 @@ bool is_partial(const Rgb& share)
     return share.x > 0.0 && share.x < 1.0;
 }
 
-/// Kinds of things that a tree holds at one of its rays, in words.
+/// Adds names of the kinds of content that a tree holds at one of its rays.
 void add_contents(const RayNode& ray, std::set<std::string>& found)
 {
     const char* const kinds[] = {"camera", "mirrored", "refracted"};
@@ -48,7 +48,8 @@ void add_contents(const RayNode& ray, std::set<std::string>& found)
         found.insert("a depth limit");
 }
 
-/// Both trees of some pixels, with both pictures. Returns what the packets' trees hold.
+/// Compares both trees of some pixels with each other and with both pictures. Returns the kinds of
+/// content in the packets' trees.
 std::set<std::string> check_pixels(const Scene& scene)
 {
     const Image<double> scalar = render_scalar<double>(scene);
@@ -74,7 +75,7 @@ std::set<std::string> check_pixels(const Scene& scene)
     return found;
 }
 
-/// Whitted's model, where the depth limit takes nothing from a hit's own colour: a mirror before
+/// Whitted's model, where the depth limit does not change a hit's own colour: a mirror in front of
 /// a ball that only the mirror shows.
 Scene mirror_and_ball()
 {
@@ -92,7 +93,8 @@ Scene mirror_and_ball()
     return scene;
 }
 
-/// Trees of the middle pixel of mirror_and_ball() and of what `change` makes of it.
+/// The first difference between the middle pixel's trees of mirror_and_ball() and of the scene
+/// after `change`.
 std::string planted(const std::function<void(Scene&)>& change,
                     double tolerance = double_tree_tolerance)
 {
@@ -199,7 +201,8 @@ TEST_CASE("NaN differs from everything, infinity from every number", "[explain]"
     CHECK(first_difference(other, other) == "camera: weight");
 }
 
-TEST_CASE("a share that one tree had no need of is no difference, another share is", "[explain]")
+TEST_CASE("a share that only one tree computed is no difference, a different share is one",
+          "[explain]")
 {
     RayNode tree;
     tree.object = 0;
@@ -213,7 +216,7 @@ TEST_CASE("a share that one tree had no need of is no difference, another share 
     CHECK(first_difference(tree, other) == "camera: light 2 share");
 }
 
-TEST_CASE("trees deeper than a path's number are refused", "[explain]")
+TEST_CASE("trees too deep for a path's number are refused", "[explain]")
 {
     Scene scene = mirror_and_ball();
     scene.max_depth = 28;
@@ -239,7 +242,7 @@ TEST_CASE("a path of 28 bounces in floats keeps its number", "[explain]")
     CHECK(rays == 29);
 }
 
-TEST_CASE("no scene gets the kernels with the probe unless it asks for them", "[explain]")
+TEST_CASE("a scene gets the kernels with a probe only if it asks for them", "[explain]")
 {
     for (const abi::KernelTable* table : all_kernels())
         for (const bool quadrics : {false, true})

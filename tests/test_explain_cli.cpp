@@ -1,4 +1,4 @@
-// The program's `explain`.
+// The command `explain`.
 #include "catch.hpp"
 #include "explain_trees.hpp"
 #include "render_scene.hpp"
@@ -30,14 +30,14 @@ bool has(const std::string& text, const std::string& part)
     return text.find(part) != std::string::npos;
 }
 
-/// The line that starts with `label`, after its indent.
+/// The line that starts with `label`, without its indent.
 std::string line_of(const std::string& text, const std::string& label)
 {
     const std::size_t at = text.find(label);
     return at == std::string::npos ? "" : text.substr(at, text.find('\n', at) - at);
 }
 
-/// What stands between spaces and commas from the table's head on.
+/// The words between spaces and commas, from the table's head on.
 std::vector<std::string> table_words(const std::string& text)
 {
     const std::size_t head = text.find("reference   ");
@@ -49,7 +49,7 @@ std::vector<std::string> table_words(const std::string& text)
     return {std::istream_iterator<std::string>(words), {}};
 }
 
-/// The same word, or for numbers close to it: the last digit depends on the instruction set.
+/// Equal words, or numbers that are nearly equal: the last digit depends on the instruction set.
 bool is_alike(const std::string& a, const std::string& b)
 {
     char* end = nullptr;
@@ -62,7 +62,7 @@ bool is_alike(const std::string& a, const std::string& b)
 
 }  // namespace
 
-TEST_CASE("the example of docs/explain.md is what explain prints", "[explain_cli]")
+TEST_CASE("explain prints the example of docs/explain.md", "[explain_cli]")
 {
     const auto page = table_words(read_text(PACKTRACE_SOURCE_DIR "/docs/explain.md"));
     const auto printed = table_words(explain({"--pixel", "30,20", "--depth", "1"}).out);
@@ -89,10 +89,11 @@ TEST_CASE("explain prints both trees beside each other", "[explain_cli]")
     CHECK_FALSE(has(result.out, "<--"));
 }
 
-TEST_CASE("explain marks the first difference alone", "[explain_cli]")
+TEST_CASE("explain marks only the first difference", "[explain_cli]")
 {
-    // The canvas point (-0.4, 0.1): its ray touches the blue sphere to the last digit, which
-    // the kernels without fused multiply-add round away. On Arm all have it.
+    // The ray of the canvas point (-0.4, 0.1) touches the blue sphere to the last digit. Kernels
+    // without fused multiply-add miss it through rounding; on Arm all kernels have fused
+    // multiply-add.
     const std::vector<std::string> isas = supported_isas();
     if (std::find(isas.begin(), isas.end(), "sse42") == isas.end())
         return;
@@ -152,7 +153,7 @@ TEST_CASE("explain takes the accuracy and the rule of self-hits", "[explain_cli]
         CHECK(result.exit_code == 0);
         return nlohmann::json::parse(result.out);
     };
-    // Rays within thin glass start outside of it by the notes' rule.
+    // By the notes' rule, rays within thin glass start outside it.
     const std::string glass = PACKTRACE_SOURCE_DIR "/docs/numerics/pancake.scene";
     const auto exact = trees(glass, {"--precision", "double"});
     const auto note = trees(glass, {"--precision", "double", "--self-hits", "note"});
@@ -168,7 +169,7 @@ TEST_CASE("explain takes the accuracy and the rule of self-hits", "[explain_cli]
     const ProgramResult doubles =
         explain({"--pixel", "1,1", "--precision", "double", "--accuracy", "fast"});
     CHECK(doubles.exit_code == 2);
-    // There is no --kernel here.
+    // explain has no --kernel.
     CHECK_THAT(doubles.err, ContainsSubstring("leave it out or use --precision single;"));
 }
 
@@ -183,7 +184,7 @@ TEST_CASE("explain names the picture's size for a pixel outside it", "[explain_c
     CHECK(explain({"--pixel", "39,29"}).exit_code == 0);
 }
 
-TEST_CASE("explain refuses what is no pixel, and a scene that is not there", "[explain_cli]")
+TEST_CASE("explain refuses a malformed pixel and a missing scene", "[explain_cli]")
 {
     for (const char* const pixel :
          {"", "3", "3,", ",3", "3x4", "-1,2", "1,-2", "1,2,3", "1, 2", "a,b", "99999999999,1"})

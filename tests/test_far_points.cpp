@@ -1,4 +1,4 @@
-// Shadows at points from which a light and what is near it are all but in one place.
+// Shadows at points so far away that a light and its neighbours nearly coincide.
 #include "catch.hpp"
 #include "packet_ways.hpp"
 #include <packtrace/read_scene.hpp>
@@ -20,9 +20,9 @@ std::ptrdiff_t black_pixels(const Image<Real>& image)
 
 }  // namespace
 
-TEST_CASE("a small ball far away shades no more than it hides", "[far_points]")
+TEST_CASE("a small ball far away casts no shadow larger than its own", "[far_points]")
 {
-    // Too small for its shadow to hold the middle of a pixel.
+    // The shadow is too small to contain the centre of a pixel.
     const Scene scene = parse_scene(R"(
 image_size = 64 x 48
 background = (9, 9, 9)
@@ -40,7 +40,7 @@ light { type = point intensity = 1 position = (0.0531, 0.2173, 0.0117) }
         }
 }
 
-TEST_CASE("a ball that holds a light leaves all in the dark, however far", "[far_points]")
+TEST_CASE("a ball around a light keeps everything dark, however far away", "[far_points]")
 {
     const Scene scene = parse_scene(R"(
 image_size = 32 x 24

@@ -1,4 +1,4 @@
-// What a scene does not need is left out, and its picture stays the same, bit for bit.
+// Features that a scene does not need are skipped; its picture stays the same, bit for bit.
 #include "catch.hpp"
 #include "dispatch/kernels.hpp"
 #include "feature_scenes.hpp"
@@ -21,7 +21,7 @@ Image<Real> render_general(const Scene& scene, const std::string& isa)
     return render<Real>(scene, {.isa = isa, .force_general = true});
 }
 
-/// What one thread did for a whole picture, and the memory it did it in.
+/// The work of one thread for a whole picture, and its memory.
 struct Work {
     abi::RayCounts counts;
     std::size_t bytes = 0;
@@ -64,7 +64,7 @@ std::string kernel_of(const Scene& scene)
     return "none";
 }
 
-/// Whether kernels for sets of features are compiled for an instruction set.
+/// Whether an instruction set has compiled kernels for sets of features.
 bool has_special_kernels(const std::string& isa)
 {
     return kernels_for(precision<float>(kernels_of(isa)), {.exact = true}).set.name ==
@@ -97,8 +97,7 @@ TEMPLATE_TEST_CASE("special kernels and the general one give the same bits", "[f
         }
 }
 
-TEST_CASE("scenes that do without something are rendered as the reference has them",
-          "[features][bulk]")
+TEST_CASE("scenes that lack a feature look as in the reference", "[features][bulk]")
 {
     std::vector<NamedScene> scenes = feature_scenes();
     scenes.push_back({"a forest", forest_scene()});
@@ -117,11 +116,11 @@ TEST_CASE("each scene gets the narrowest kernel", "[features]")
     for (const char* name : {"quadrics", "tinted mirrors", "glass"})
         CHECK(kernel_of(scene_named(name)) == "general");
     CHECK_FALSE(pruned(scene_named("mirrors at depth 0")).bounces);
-    // Its limit has a colour, which transparent and mirroring surfaces show.
+    // The depth limit has a colour, which transparent and mirroring surfaces show.
     CHECK(pruned(scene_named("glass at depth 0")).bounces);
 }
 
-TEST_CASE("where kernels for sets of features are compiled in, they run", "[features]")
+TEST_CASE("kernels for sets of features run if they are compiled in", "[features]")
 {
     for (const std::string& isa : supported_isas()) {
         const bool special =
@@ -137,13 +136,13 @@ TEST_CASE("where kernels for sets of features are compiled in, they run", "[feat
     }
 }
 
-TEST_CASE("what is left out does not run", "[features]")
+TEST_CASE("kernels skip the steps that a scene does not need", "[features]")
 {
     const auto passed = [](const Scene& scene) { return work_of(scene).counts.passed; };
     const auto passed_by_fast = [](const Scene& scene) {
         return work_of(scene, false, Accuracy::fast).counts.passed;
     };
-    // In exact mode hits are refined where anything but their object counts.
+    // In exact mode hits are refined if anything but their object matters.
     const std::uint32_t shown = abi::passed_hits | abi::passed_normals;
     const std::uint32_t shaded = shown | abi::passed_occluders | abi::passed_shadow_rays;
     CHECK(passed(matt_scene()) == (shaded | abi::passed_refined));
@@ -163,7 +162,7 @@ TEST_CASE("what is left out does not run", "[features]")
     CHECK((passed(matt_scene()) & abi::passed_hierarchy) == 0);
 }
 
-TEST_CASE("rays of what is left out are not traced", "[features]")
+TEST_CASE("rays that a scene does not need are not traced", "[features]")
 {
     const abi::RayCounts none = work_of(scene_named("no object with a shadow")).counts;
     CHECK(none.camera == 80u * 60u);
@@ -171,19 +170,19 @@ TEST_CASE("rays of what is left out are not traced", "[features]")
     CHECK(work_of(scene_named("ambient light alone")).counts.shadow == 0);
     CHECK(work_of(scene_named("mirrors at depth 0")).counts.reflected == 0);
 
-    // Of two lights one reaches everything.
+    // One of two lights casts no shadows.
     Scene scene = scene_named("a light that reaches everything");
     const std::uint64_t one = work_of(scene).counts.shadow;
     scene.lights[0].casts_shadow = true;
     CHECK(one > 0);
     CHECK(work_of(scene).counts.shadow > one);
 
-    // A dark light is none.
+    // A dark light does not count.
     CHECK(work_of(scene_named("a dark light and an object twice")).counts.shadow ==
           work_of(matt_scene()).counts.shadow);
 }
 
-TEST_CASE("memory is not taken for what is left out", "[features]")
+TEST_CASE("features that a scene does not need take no memory", "[features]")
 {
     if (!has_special_kernels(choose_isa().name))
         return;
@@ -200,7 +199,7 @@ TEST_CASE("memory is not taken for what is left out", "[features]")
     CHECK(work_of(scene_named("glass")).bytes > work_of(scene_named("mirrors")).bytes);
 }
 
-TEST_CASE("dark lights and objects in another's place count for nothing", "[features]")
+TEST_CASE("dark lights and coincident copies of objects are pruned", "[features]")
 {
     LoweredScene lowered = lower(scene_named("a dark light and an object twice"));
     const std::vector<LeftOut> left_out = prune(lowered);
@@ -211,20 +210,20 @@ TEST_CASE("dark lights and objects in another's place count for nothing", "[feat
     REQUIRE(lowered.spheres.size() == 2);
     CHECK(lowered.spheres[1].surface == 1);
 
-    // Where light passes through objects each dims it.
+    // Where shadows are transparent, each object dims the light.
     lowered = lower(parse("illumination = general\nshadows = transparent\n" + one_light +
                           "sphere { center = (0, 0, 3) radius = 1 transmit = 0.5 }\n"
                           "sphere { center = (0, 0, 3) radius = 1 transmit = 0.5 }\n"));
     CHECK(prune(lowered).empty());
     CHECK(lowered.spheres.size() == 2);
 
-    // Nor does an object without a shadow stand for one with.
+    // An object that casts no shadow does not replace one that does.
     lowered = lower(parse(one_light + "sphere { center = (0, 0, 3) radius = 1 casts_shadow = no }\n"
                                       "sphere { center = (0, 0, 3) radius = 1 }\n"));
     CHECK(prune(lowered).empty());
 }
 
-TEST_CASE("a material that no surface left has counts for nothing", "[features]")
+TEST_CASE("a material without surfaces is pruned", "[features]")
 {
     const std::string lit = "background = (9, 9, 9)\n" + one_light;
     const std::string mirror =
@@ -237,7 +236,7 @@ TEST_CASE("a material that no surface left has counts for nothing", "[features]"
     CHECK(hidden.max_depth == 0);
 }
 
-TEST_CASE("casts_shadow is read, and written again", "[features]")
+TEST_CASE("casts_shadow is read and written back", "[features]")
 {
     const std::string text =
         "sphere { center = (0, 0, 3) radius = 1 casts_shadow = no }\n"

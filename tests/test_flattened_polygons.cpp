@@ -1,4 +1,5 @@
-// Polygons whose transform flattens or stretches them: where double loses digits of their normals.
+// Polygons with a transform that flattens or stretches them, where double loses digits of their
+// normals.
 #include "catch.hpp"
 #include "lab/truth/wide_truth.hpp"
 #include "packet_ways.hpp"
@@ -32,7 +33,7 @@ Ray<double> ray_of(const Vec3& org, const Vec3& dir)
     return {{org.x, org.y, org.z}, {dir.x, dir.y, dir.z}};
 }
 
-/// A parallelogram around its own origin, and its two half diagonals.
+/// A parallelogram around the origin, and its two half diagonals.
 struct Flattened {
     Object object;
     Vec3 u, v;
@@ -124,7 +125,7 @@ polygon { vertices = (-2.2024777293079203,-3.6261555703017256,-0.009361189688983
     }
 }
 
-TEST_CASE("polygons keep their side under mirrorings", "[flattened_polygons]")
+TEST_CASE("polygons keep their sides under reflections", "[flattened_polygons]")
 {
     SceneRandom random(3);
     for (int i = 0; i < 200; ++i) {
@@ -134,7 +135,7 @@ TEST_CASE("polygons keep their side under mirrorings", "[flattened_polygons]")
             scene.objects = {polygon.object};
             Mat4& place = scene.objects[0].transform;
             place = glm::scale(Mat4(1.0), Vec3(side, 1.0, 1.0)) * place;
-            // From a little off the own surface, on the side that its normal points to.
+            // Starts slightly off the polygon, on the side that its normal points to.
             const Vec3 normal = polygon_normal(std::get<Polygon>(polygon.object.surface));
             const Vec3 org(place * glm::dvec4(normal, 1.0));
             const SurfaceHit<double> hit = RayScene<double>(scene).closest_hit(ray_of(org, -org));
@@ -144,7 +145,7 @@ TEST_CASE("polygons keep their side under mirrorings", "[flattened_polygons]")
     }
 }
 
-TEST_CASE("polygons are hit from as far as rays may be", "[flattened_polygons]")
+TEST_CASE("polygons are hit from as far away as rays may start", "[flattened_polygons]")
 {
     const Scene scene =
         parse_scene("polygon { vertices = (-1,-1,0),(-1,1,0),(1,1,0),(1,-1,0) }", "square", {});

@@ -25,7 +25,7 @@ const char* const turning =
     "light { type = ambient  intensity = 0.5 }\n"
     "light { type = point  intensity = 0.5  position = (2, 3, -1) }\n";
 
-/// A folder with turning.scene in it.
+/// A folder that contains turning.scene.
 class Studio {
 public:
     Studio() : scene_(folder / "turning.scene")
@@ -85,7 +85,7 @@ TEST_CASE("--frames writes each frame as its camera sees it", "[frames]")
     CHECK((studio.frame(1).rgb != studio.frame(2).rgb));
 }
 
-TEST_CASE("--frames goes on where it stopped, --overwrite starts again", "[frames]")
+TEST_CASE("--frames continues where it stopped, --overwrite starts again", "[frames]")
 {
     for (const std::string ending : {".png", ".pfm", ".hdr"}) {
         CAPTURE(ending);
@@ -107,9 +107,9 @@ TEST_CASE("--frames goes on where it stopped, --overwrite starts again", "[frame
     }
 }
 
-TEST_CASE("--frames renders again what another scene or other options made", "[frames]")
+TEST_CASE("--frames renders frames of another scene or of other options again", "[frames]")
 {
-    // What each run adds to the command line, and how many of frames 0..1 it renders.
+    // The words that each run adds to the command line, and how many of frames 0..1 it renders.
     struct Run {
         const char* why;
         Words words;
@@ -156,7 +156,7 @@ TEST_CASE("--frames renders again what another scene or other options made", "[f
     }
 }
 
-TEST_CASE("--frames renders again what is no picture, or no longer the one it was", "[frames]")
+TEST_CASE("--frames renders damaged and replaced pictures again", "[frames]")
 {
     for (const std::string ending : {".png", ".pfm"}) {
         CAPTURE(ending);
@@ -167,7 +167,7 @@ TEST_CASE("--frames renders again what is no picture, or no longer the one it wa
         CHECK_THAT(first.err, ContainsSubstring("1 in place of pictures"));
         const std::string frame = read_text(studio.folder / ("f0" + ending));
         CHECK(frame != "finished");
-        // One frame under a plain name says nothing of what made it.
+        // A single frame under a plain name has no record of what made it.
         CHECK(studio.render("f0" + ending, {"--frame", "3", "-q"}).exit_code == 0);
         const ProgramResult second = studio.render("f%d" + ending, {"--frames", "0..1"});
         CHECK_THAT(second.err, ContainsSubstring("1 frame rendered"));
@@ -176,7 +176,7 @@ TEST_CASE("--frames renders again what is no picture, or no longer the one it wa
     }
 }
 
-TEST_CASE("a frame that can't be written stops the run and leaves no half of it", "[frames]")
+TEST_CASE("a frame that can't be written ends the run and leaves no unfinished file", "[frames]")
 {
     const Studio studio;
     std::filesystem::create_directory(studio.folder / "f1.pfm");
@@ -187,7 +187,7 @@ TEST_CASE("a frame that can't be written stops the run and leaves no half of it"
            Words{"f0.pfm", "f0.pfm.recipe", "f1.pfm", "still.scene", "turning.scene"}));
 }
 
-TEST_CASE("a frame without a view is told before the first one is rendered", "[frames]")
+TEST_CASE("a frame without a view is reported before the first frame is rendered", "[frames]")
 {
     const Studio studio;
     write_text(studio.folder / "through.scene",
@@ -231,7 +231,7 @@ TEST_CASE("a video that can't be written is an error", "[frames]")
     CHECK_THAT(result.err, ContainsSubstring("v.y4m: can't write"));
 }
 
-TEST_CASE("wrong uses of frames end with 2 and one line", "[frames]")
+TEST_CASE("wrong use of frame options exits with 2 and one line", "[frames]")
 {
     struct Wrong {
         std::string output;

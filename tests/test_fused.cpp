@@ -1,4 +1,4 @@
-// Paths that are traced in registers bring what those in streams bring, bit for bit.
+// Paths traced in registers give the same colours as paths in streams, bit for bit.
 #include "catch.hpp"
 #include "dispatch/kernels.hpp"
 #include "few_objects.hpp"
@@ -29,7 +29,7 @@ struct Frame {
     abi::RayCounts counts;
 };
 
-/// By tiles, which is how frames are made; in streams of the general kernel if asked for.
+/// Renders in tiles, as frames are; with `streams`, in streams of the general kernel.
 Frame render_tiles(const Scene& scene, const std::string& isa, bool streams, int samples = 1)
 {
     const RenderOptions options{.force_general = streams, .samples = samples};
@@ -48,7 +48,7 @@ Scene note_scene()
 
 }  // namespace
 
-TEST_CASE("paths in registers give the bits of streams", "[fused]")
+TEST_CASE("paths in registers give the same bits as streams", "[fused]")
 {
     unsigned traced = 0;
     for (unsigned seed = 1; seed <= scene_count(150); ++seed) {
@@ -63,7 +63,7 @@ TEST_CASE("paths in registers give the bits of streams", "[fused]")
     CHECK(traced >= scene_count(150) * supported_isas().size() / 2);
 }
 
-TEST_CASE("paths in registers take the same rays as streams", "[fused]")
+TEST_CASE("paths in registers trace the same rays as streams", "[fused]")
 {
     for (const std::string& isa : supported_isas()) {
         CAPTURE(isa);
@@ -76,7 +76,7 @@ TEST_CASE("paths in registers take the same rays as streams", "[fused]")
     }
 }
 
-TEST_CASE("several samples a pixel go through registers, too", "[fused]")
+TEST_CASE("pictures with several samples a pixel are traced in registers too", "[fused]")
 {
     Scene scene = note_scene();
     set_size(scene, 70, 45);
@@ -91,7 +91,7 @@ TEST_CASE("several samples a pixel go through registers, too", "[fused]")
     CHECK(same_bits(registers, render<float>(scene, options)));
 }
 
-TEST_CASE("what registers have no room for goes through streams", "[fused]")
+TEST_CASE("scenes that registers have no room for are traced in streams", "[fused]")
 {
     const std::string isa = choose_isa().name;
     Scene scene = note_scene();

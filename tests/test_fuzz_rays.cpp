@@ -1,4 +1,4 @@
-// Rays of any bit pattern: kernels answer, and what they answer is in range.
+// Rays of any bit pattern: kernels answer, and their answers are in range.
 #include "catch.hpp"
 #include "lab/stress/placed_quadric.hpp"
 #include "lab/stress/stress_random.hpp"
@@ -26,7 +26,7 @@ Real any_bits(lab::StressRandom& random)
     return std::bit_cast<Real>(static_cast<Bits<Real>>(random.bits()));
 }
 
-/// Any bits at all, or one of the values that break things.
+/// Any bits at all, or one of the difficult values.
 template <class Real>
 Real any_value(lab::StressRandom& random)
 {
@@ -60,7 +60,7 @@ RayColumns<Real> any_rays(int count)
     return rays;
 }
 
-/// A surface of every kind; `many` adds enough balls for a hierarchy.
+/// A surface of every kind; `many` adds enough balls for a bvh.
 Scene every_kind(bool many)
 {
     Scene scene{.objects = {sphere({0, 0, 0}, 1.5), plane({0, -2, 0}, {0.2, 1, 0.1}),

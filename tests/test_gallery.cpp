@@ -1,4 +1,4 @@
-// The page of pictures keeps up with the scenes.
+// The page of pictures matches the scenes.
 #include "catch.hpp"
 #include "render_scene.hpp"
 #include "run_program.hpp"
@@ -23,7 +23,7 @@ TEST_CASE("the gallery shows every scene and the command for it", "[gallery]")
     }
 }
 
-TEST_CASE("the gallery's pictures are what the scenes look like now", "[gallery][slow]")
+TEST_CASE("the gallery's pictures show the current scenes", "[gallery][slow]")
 {
     const std::filesystem::path pictures =
         std::filesystem::path(PACKTRACE_SOURCE_DIR) / "docs" / "pictures";

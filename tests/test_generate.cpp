@@ -29,8 +29,8 @@ const Sphere& sphere(const Scene& scene, std::size_t i)
     return std::get<Sphere>(scene.objects.at(i).surface);
 }
 
-/// Text again, and the scene read from it writes the same one: the writer keeps every field, so
-/// equal texts are equal scenes.
+/// Writes a scene, reads it and writes it again. The writer keeps every field, so equal texts mean
+/// equal scenes.
 void check_round_trip(const Scene& scene)
 {
     const std::string text = scene_text(scene);
@@ -42,7 +42,7 @@ void check_round_trip(const Scene& scene)
             FAIL("object " << i << " is named " << read.objects[i].name);
 }
 
-/// Counts the children of `parent` among its `size` descendants that follow it, checking each.
+/// Checks the children of `parent` among its `size` descendants, which follow it, and counts them.
 std::size_t check_children(const Scene& scene, std::size_t parent, std::size_t size)
 {
     const Sphere& own = sphere(scene, parent);
@@ -60,7 +60,7 @@ std::size_t check_children(const Scene& scene, std::size_t parent, std::size_t s
 
 }  // namespace
 
-TEST_CASE("a sphereflake has nine children to a sphere", "[generate]")
+TEST_CASE("each sphere of a sphereflake has nine children", "[generate]")
 {
     std::size_t count = 1;
     for (int depth = 0; depth <= 4; ++depth) {
@@ -82,7 +82,8 @@ TEST_CASE("a sphereflake's spheres touch their parents", "[generate]")
     CHECK(check_children(scene, 0, scene.objects.size()) == 91);
 }
 
-TEST_CASE("a sphere's nine children are apart and none is at its foot", "[generate]")
+TEST_CASE("a sphere's nine children are apart, and none is where the sphere touches its parent",
+          "[generate]")
 {
     const Scene scene = generate_sphereflake({.depth = 1});
     for (std::size_t i = 1; i < 10; ++i) {
@@ -93,7 +94,7 @@ TEST_CASE("a sphere's nine children are apart and none is at its foot", "[genera
     }
 }
 
-TEST_CASE("ground and lamps of a sphereflake come with the option", "[generate]")
+TEST_CASE("an option adds ground and lamps to a sphereflake", "[generate]")
 {
     const Scene bare = generate_sphereflake({.depth = 2, .reflective = 0.5});
     const Scene full = generate_sphereflake({.depth = 2, .reflective = 0.5, .ground = true});
@@ -104,7 +105,7 @@ TEST_CASE("ground and lamps of a sphereflake come with the option", "[generate]"
     CHECK(std::get<ScratchMaterial>(full.objects[0].material.model).reflective == 0.5);
 }
 
-TEST_CASE("random spheres fill the unit cube evenly, the same for a seed", "[generate]")
+TEST_CASE("random spheres fill the unit cube evenly, and a seed repeats them", "[generate]")
 {
     const Scene scene = generate_random_spheres({.count = 8000, .radius = 0.01, .seed = 3});
     REQUIRE(scene.objects.size() == 8000);
@@ -124,17 +125,18 @@ TEST_CASE("random spheres fill the unit cube evenly, the same for a seed", "[gen
     CHECK(scene_text(other) != scene_text(scene));
 }
 
-TEST_CASE("more random spheres begin with the same ones", "[generate]")
+TEST_CASE("a larger number of random spheres begins with the spheres of a smaller one",
+          "[generate]")
 {
     const Scene few = generate_random_spheres({.count = 10});
     const Scene many = generate_random_spheres({.count = 100});
     for (std::size_t i = 0; i < 10; ++i)
         CHECK(sphere(few, i).center == sphere(many, i).center);
-    // So that a change of the generator does not go unseen.
+    // Fixed numbers detect a change of the generator.
     CHECK(sphere(few, 0).center == Vec3(0.0822465, 0.6428519, 0.289059));
 }
 
-TEST_CASE("a lattice's spheres are all in places of their own", "[generate]")
+TEST_CASE("a lattice's spheres are all in different places", "[generate]")
 {
     const Scene scene = generate_lattice({.edge = 5, .radius = 0.5});
     std::set<std::vector<double>> places;
@@ -196,7 +198,7 @@ TEST_CASE("every example of the language's reference survives being written", "[
     }
 }
 
-TEST_CASE("what the scene language can't say is not written", "[generate]")
+TEST_CASE("scenes that the language can't express are not written", "[generate]")
 {
     Scene scene = generate_sphereflake({.depth = 0});
     scene.objects[0].name = "a \"b\"";
@@ -261,7 +263,7 @@ TEST_CASE("generate refuses wrong use in a line", "[generate]")
     CHECK_THAT(mirror.err, ContainsSubstring("--reflective: '1.5' is not a number from 0 to 1"));
 }
 
-TEST_CASE("a scene file that can't be written is named, and nothing is left", "[generate]")
+TEST_CASE("a scene file that can't be written is named, and no file is left", "[generate]")
 {
     const TempFolder folder;
     const std::string file = (folder / "none" / "a.scene").string();

@@ -1,4 +1,4 @@
-// Mirrors and glass in packets against the laws of light and the promises about memory.
+// Mirrors and glass in packets against the laws of optics and the promises about memory.
 #include "catch.hpp"
 #include "dispatch/kernels.hpp"
 #include "lower/packed_scene.hpp"
@@ -22,7 +22,7 @@ Material clear(double ior)
     return shaded(WhittedMaterial{Rgb(0), Rgb(0), Rgb(0), Rgb(1), 1.0, ior});
 }
 
-/// Neither emits nor mirrors.
+/// A material that neither emits nor mirrors.
 Material black()
 {
     return shaded(WhittedMaterial{});
@@ -33,7 +33,7 @@ Material white()
     return shaded(WhittedMaterial{Rgb(1), Rgb(0), Rgb(0), Rgb(0), 1.0, 1.0});
 }
 
-/// Note 000's transparent object: Kd = 0 and Ks + Kr = 1, of another share per channel.
+/// Note 000's transparent object: Kd = 0 and Ks + Kr = 1, with different shares in each channel.
 Material conserving(double ior)
 {
     return shaded(SketchMaterial{Rgb(0), Rgb(0), {0.25, 0.5, 0.75}, {0.75, 0.5, 0.25}, 50.0, ior});
@@ -59,13 +59,13 @@ double seen(const Scene& scene, const std::string& isa)
     return static_cast<double>(render_packets<Real>(scene, isa).rgb[0]);
 }
 
-/// Between z = -1 and z = 1, as a pair of planes.
+/// Glass between z = -1 and z = 1, as a pair of planes.
 Object slab(double ior)
 {
     return quadric({0, 0, 1, 0, 0, 0, 0, 0, 0, -1}, clear(ior));
 }
 
-/// The same as the capped ends of a wide cylinder.
+/// The same slab between the caps of a wide cylinder.
 Object disc(double ior)
 {
     Object object = quadric({1, 1, 0, 0, 0, 0, 0, 0, 0, -400}, clear(ior));
@@ -78,14 +78,14 @@ Object disc(double ior)
 Object edge_at(double edge)
 {
     Object screen = plane({edge, 0, 6}, {0, 0, -1}, white());
-    // Its u axis is x; the squares are far larger than the scene, and y = 0 is inside of one.
+    // Its u axis is x. The squares are far larger than the scene, and y = 0 is inside one.
     std::get<Plane>(screen.surface).point.y = -500;
     screen.material.color = Rgb(0);
     screen.material.checker = Checker{Rgb(1), 1000.0};
     return screen;
 }
 
-/// Balls within balls, the eye in the innermost, every hit with two children.
+/// Balls inside balls with the eye in the innermost; every hit has two children.
 Scene shells(int depth)
 {
     Scene scene;
@@ -110,7 +110,7 @@ std::size_t scratch_bytes(const Scene& scene, const std::string& isa)
 
 }  // namespace
 
-TEMPLATE_TEST_CASE("where Ks + Kr = 1 a uniform background is all that is seen", "[glass_physics]",
+TEMPLATE_TEST_CASE("if Ks + Kr = 1 a uniform background is all that is seen", "[glass_physics]",
                    float, double)
 {
     Scene scene{.width = 61,
@@ -142,7 +142,7 @@ TEMPLATE_TEST_CASE("total internal reflection begins within 1e-6 of the critical
     for (const double ior : {1.33, 1.5, 2.4})
         for (const double offset : {-1e-6, 1e-6}) {
             const double angle = std::asin(1 / ior) + offset;
-            // In the glass below z = 0, whose floor is black; the sky is white.
+            // The ray starts in the glass below z = 0, whose floor is black; the sky is white.
             Scene scene = one_ray({0, 0, -1}, {std::sin(angle), 0, std::cos(angle)});
             scene.background = Rgb(1);
             scene.objects = {plane({0, 0, 0}, {0, 0, 1}, clear(ior)),
@@ -154,10 +154,10 @@ TEMPLATE_TEST_CASE("total internal reflection begins within 1e-6 of the critical
         }
 }
 
-TEMPLATE_TEST_CASE("what does not bend light lets even a grazing ray go straight on",
+TEMPLATE_TEST_CASE("glass with an ior of 1 lets even a grazing ray go straight on",
                    "[glass_physics]", float, double)
 {
-    // Down by 1 on 10000, into the black floor half a unit below the sheet.
+    // Descends by 1 over 10000, into the black floor half a unit below the sheet.
     Scene scene = one_ray({0, 0, 0.1}, {1, 0, -1e-4});
     scene.background = Rgb(1);
     scene.objects = {plane({0, 0, 0}, {0, 0, 1}, clear(1.0)),
@@ -174,7 +174,7 @@ TEMPLATE_TEST_CASE("a slab shifts a ray by the analytic amount", "[glass_physics
         for (const double degrees : {0.0, 10.0, 45.0, 70.0}) {
             const double angle = degrees * pi / 180;
             const double within = std::asin(std::sin(angle) / 1.5);
-            // Seven units of the way along z in air, two in glass.
+            // The ray crosses seven units of z in air and two in glass.
             const double expected = 7 * std::tan(angle) + 2 * std::tan(within);
             Scene scene = one_ray({0, 0, -3}, {std::sin(angle), 0, std::cos(angle)});
             for (const std::string& isa : supported_isas()) {
@@ -187,12 +187,12 @@ TEMPLATE_TEST_CASE("a slab shifts a ray by the analytic amount", "[glass_physics
         }
 }
 
-TEMPLATE_TEST_CASE("scratch memory grows by one stream a level, whatever the tree",
+TEMPLATE_TEST_CASE("scratch memory grows by one stream per level, whatever the tree",
                    "[glass_physics]", float, double)
 {
-    // A stream holds two children for each of 256 rays and a packet's padding: origin, direction,
-    // weight, pixel, eight bodies, and where it starts: point, surface, other root and the piece
-    // met there; then its count.
+    // A stream holds two children for each of 256 rays and a packet's padding. Each child has
+    // origin, direction, weight, pixel, eight media, and its start: point, surface, other root and
+    // the piece hit there. The stream's count follows.
     const std::size_t stream = 528 * (3 + 3 + 3 + 1 + 8 + 3 + 1 + 2) * sizeof(TestType) + 64;
     for (const std::string& isa : supported_isas()) {
         CAPTURE(isa);
@@ -203,22 +203,22 @@ TEMPLATE_TEST_CASE("scratch memory grows by one stream a level, whatever the tre
     }
 }
 
-TEMPLATE_TEST_CASE("depth 20 with two children a hit renders in little memory and loses no light",
+TEMPLATE_TEST_CASE("depth 20 with two children per hit renders in little memory and loses no light",
                    "[glass_physics]", float, double)
 {
     const Scene scene = shells(20);
     const Renderer<TestType> renderer(scene, {.threads = 1});
     Image<TestType> image(2, 2);
     FrameCounts counts;
-    // Its streams take 1.6 MB; as many rays at once as there are leaves would take over 100 MB.
+    // Its streams take 1.6 MB; storing a ray for each leaf would take over 100 MB.
     const long growth = peak_growth([&] { counts = renderer.render(image); });
     REQUIRE(memory_status("VmHWM") > 0);
     CAPTURE(growth);
     CHECK(growth <= 4096 + sanitizer_kilobytes);
-    // Of the 4 * 2^20 leaves that the tree could have, those left that have not escaped.
+    // The trees of four pixels could have 4 * 2^20 leaves; these rays have not escaped.
     CHECK(counts.reflected > 1'000'000);
     CHECK(counts.refracted > 1'000'000);
-    // In single precision a million small terms lose their last digits one by one.
+    // In single precision a sum of a million small terms loses digits.
     const double margin = std::is_same_v<TestType, float> ? 1e-2 : 1e-9;
     for (int i = 0; i < 12; ++i)
         CHECK(std::abs(static_cast<double>(image.rgb[static_cast<std::size_t>(i)]) -

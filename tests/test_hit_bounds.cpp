@@ -1,4 +1,4 @@
-// Proven bounds of hits: they hold what is truly hit.
+// Proven bounds of hits contain the true hits.
 #include "catch.hpp"
 #include "core/quad.hpp"
 #include "intersect_program.hpp"
@@ -20,7 +20,7 @@ namespace {
 
 constexpr double endless = std::numeric_limits<double>::infinity();
 
-/// One ray for a scene, and what bounds it gets.
+/// One ray for a scene, and the bounds of its hits.
 template <class Real>
 class OneRay {
 public:
@@ -29,7 +29,7 @@ public:
         ray_.add(org, dir, t_min, t_max);
     }
 
-    /// Of the first hit, which is with that object.
+    /// The bounds of the closest hit, which is on this object.
     [[nodiscard]] HitBounds first(const RayScene<Real>& scene, std::int32_t object = 0) const
     {
         HitBounds bounds;
@@ -37,7 +37,7 @@ public:
         return bounds;
     }
 
-    /// Of all hits.
+    /// The bounds of all hits.
     [[nodiscard]] std::vector<HitBounds> all(const RayScene<Real>& scene) const
     {
         std::vector<HitBounds> bounds;
@@ -57,7 +57,7 @@ bool holds(const HitBounds& bounds, double t)
     return bounds.low <= t && t <= bounds.high;
 }
 
-/// How far bounds are apart, in last places of double.
+/// The distance between bounds, in units in the last place of double.
 double ulps(const HitBounds& bounds)
 {
     return (bounds.high - bounds.low) / std::ldexp(0x1p-52, std::ilogb(bounds.low));
@@ -77,7 +77,7 @@ Scene scene_of(Object object)
 
 using Rational = boost::multiprecision::cpp_rational;
 
-/// The side of an unplaced sphere that a ray's point at t is on, without any rounding.
+/// The side of a sphere without a transform on which a ray's point at t lies, in exact arithmetic.
 int side_of(const Sphere& sphere, const Vec3& org, const Vec3& dir, double t)
 {
     Rational value = -Rational(sphere.radius) * Rational(sphere.radius);
@@ -89,7 +89,7 @@ int side_of(const Sphere& sphere, const Vec3& org, const Vec3& dir, double t)
     return value.sign();
 }
 
-/// Below 0 if the ray's line surely misses the sphere.
+/// Below 0 if the ray's line certainly misses the sphere.
 int discriminant_of(const Sphere& sphere, const Vec3& org, const Vec3& dir)
 {
     Rational a = 0;
@@ -120,7 +120,7 @@ lab::BoundChecks check_family(const lab::StressFamily& family, int rays, std::ui
     return sum;
 }
 
-/// All families, with that many rays each; the number of bounds.
+/// Checks this number of rays in each family; returns the number of bounds.
 std::uint64_t check_families(int rays, std::uint64_t seed)
 {
     std::uint64_t bounds = 0;
@@ -137,7 +137,7 @@ std::uint64_t check_families(int rays, std::uint64_t seed)
 
 }  // namespace
 
-TEST_CASE("bounds of a plain hit are a few last places of double apart", "[hit_bounds]")
+TEST_CASE("bounds of a plain hit are a few units in the last place of double apart", "[hit_bounds]")
 {
     const Scene scene = scene_of(hand_scene);
     const RayScene<double> doubles(scene);
@@ -155,7 +155,7 @@ TEST_CASE("bounds of a plain hit are a few last places of double apart", "[hit_b
     CHECK(holds(OneRay<double>({0, 0, 0}, {0, 0, 1}, 4.5).first(doubles), 6.0));
 }
 
-TEST_CASE("bounds are empty where there is no hit", "[hit_bounds]")
+TEST_CASE("bounds are empty for a miss", "[hit_bounds]")
 {
     const RayScene<double> scene(scene_of(hand_scene));
     CHECK(OneRay<double>({0, 0, 0}, {0, 0, 1}).first(scene, -1).empty());
@@ -168,11 +168,12 @@ TEST_CASE("bounds are empty where there is no hit", "[hit_bounds]")
     CHECK(OneRay<double>({0, 0, 0}, {0, none, 1}).first(scene).empty());
     CHECK(OneRay<double>({0, 0, 0}, {0, 0, 1}, none).first(scene).empty());
     CHECK(OneRay<double>({0, 0, 0}, {0, 0, 1}, 0.0, none).first(scene).empty());
-    // Past the ball by less than single precision tells.
+    // The ray passes the ball by less than single precision resolves.
     CHECK(OneRay<double>({1.0 + 0x1p-50, 0, 0}, {0, 0, 1}).first(scene).empty());
 }
 
-TEST_CASE("bounds are empty for one of all hits that rounding took into the range", "[hit_bounds]")
+TEST_CASE("bounds are empty for one of all hits that only rounding moved into the ray interval",
+          "[hit_bounds]")
 {
     const RayScene<double> scene(scene_of(hand_scene));
     Ray<double> ray{.org = {0, 0, 0}, .dir = {0, 0, 1}};
@@ -188,7 +189,7 @@ TEST_CASE("bounds are empty for one of all hits that rounding took into the rang
     CHECK(holds(bounds[1], 6.0));
 }
 
-TEST_CASE("bounds hold the near of two hits that single precision cannot tell apart",
+TEST_CASE("bounds contain the nearer of two hits that single precision cannot tell apart",
           "[hit_bounds]")
 {
     const Scene scene = scene_of(lab::sphere_object({0, 0, 10000}, 0.0003));
@@ -203,7 +204,7 @@ TEST_CASE("bounds hold the near of two hits that single precision cannot tell ap
     CHECK(all[1].low > 10000.0);
 }
 
-TEST_CASE("bounds of a ray that only touches hold the point of touch", "[hit_bounds]")
+TEST_CASE("bounds of a ray that only touches contain the point of contact", "[hit_bounds]")
 {
     const RayScene<double> scene(scene_of(hand_scene));
     const HitBounds touch = OneRay<double>({1, 0, 0}, {0, 0, 1}).first(scene);
@@ -213,7 +214,8 @@ TEST_CASE("bounds of a ray that only touches hold the point of touch", "[hit_bou
 
 TEST_CASE("bounds at a rim are one interval", "[hit_bounds]")
 {
-    // Each of side and cap alone is in doubt there; that the ray leaves the body is not.
+    // Whether the ray hits the side or the cap is in doubt there; that it leaves the body is
+    // certain.
     const RayScene<double> scene(scene_of("cylinder { z_range = (-1, 1)  capped = true }"));
     const HitBounds rim = OneRay<double>({0.5, 0, 0}, {0.5, 0, 1}).first(scene);
     CHECK(holds(rim, 1.0));
@@ -235,9 +237,9 @@ TEST_CASE("bounds of a ray along the caps of a stretched body are tight", "[hit_
     CHECK(ulps(OneRay<float>({0, 5, 0.125}, {0, -1, 0}).first(slice)) <= 3.0);
 }
 
-TEST_CASE("bounds of two hits with one t in single precision are those of each", "[hit_bounds]")
+TEST_CASE("two hits with one t in single precision have their own bounds", "[hit_bounds]")
 {
-    // Rays along an asymptote meet the side once, and the cap next to the rim.
+    // Rays along an asymptote hit the side once, and the cap next to the rim.
     const RayScene<float> waist(
         scene_of("hyperboloid { z_range = (-1, 1)  capped = true  scale = 1.1 }"));
     const float z = -9.89999962f;
@@ -260,9 +262,9 @@ TEST_CASE("bounds of two hits with one t in single precision are those of each",
     CHECK(apart > 12);
 }
 
-TEST_CASE("bounds of all hits pass over the root where a ray starts on the surface", "[hit_bounds]")
+TEST_CASE("bounds of all hits skip the root at the surface where a ray starts", "[hit_bounds]")
 {
-    // Starts on the side, all but along it, and leaves it at 2^-49.
+    // Starts on the side, nearly along it, and leaves it at 2^-49.
     const RayScene<double> drum(scene_of(R"(cylinder {
         z_range = (0, 1.5)  capped = true
         matrix = (-4, 0, 0, -2,
@@ -295,7 +297,7 @@ TEST_CASE("bounds stay tight along generators, across scales and for long direct
     }
 }
 
-TEST_CASE("bounds know nothing of kernels, precisions and modes", "[hit_bounds]")
+TEST_CASE("bounds do not depend on kernel, precision or mode", "[hit_bounds]")
 {
     const Scene scene = scene_of(hand_scene);
     const RenderOptions scalar{.kernel = Kernel::scalar};
@@ -309,7 +311,7 @@ TEST_CASE("bounds know nothing of kernels, precisions and modes", "[hit_bounds]"
     }
 }
 
-TEST_CASE("a sphere's surface lies between its bounds by exact arithmetic", "[hit_bounds]")
+TEST_CASE("exact arithmetic finds a sphere's surface between its bounds", "[hit_bounds]")
 {
     lab::StressRandom random(7);
     int crossings = 0;
@@ -317,7 +319,7 @@ TEST_CASE("a sphere's surface lies between its bounds by exact arithmetic", "[hi
         Sphere sphere{.center = random.box(random.power(1.0, 1e6)),
                       .radius = random.power(1e-3, 1e3)};
         const Vec3 org = random.box(random.power(1.0, 1e6));
-        // Near the silhouette as often as not.
+        // Half of the rays aim near the silhouette.
         const Vec3 target = sphere.center + (i % 2 == 0 ? 0.9 : 1.0 - 1e-9) * sphere.radius *
                                                 lab::across(random, sphere.center - org);
         Object object{.surface = sphere};
@@ -325,7 +327,7 @@ TEST_CASE("a sphere's surface lies between its bounds by exact arithmetic", "[hi
         const OneRay<double> ray(org, target - org);
         for (const HitBounds& bounds : ray.all(scene)) {
             CAPTURE(i, bounds.low, bounds.high);
-            // Double may have hits that there are not.
+            // Double may find hits that do not exist.
             if (bounds.empty()) {
                 CHECK(discriminant_of(sphere, org, target - org) < 0);
                 continue;
@@ -339,9 +341,9 @@ TEST_CASE("a sphere's surface lies between its bounds by exact arithmetic", "[hi
     CHECK(crossings > 300);
 }
 
-TEST_CASE("a changed bound would be found to miss the truth", "[hit_bounds]")
+TEST_CASE("the check detects bounds that miss the truth", "[hit_bounds]")
 {
-    // The check itself: hits of another scene, slightly larger.
+    // Tests the check itself with hits of another, slightly larger scene.
     const auto& families = lab::stress_families();
     const auto sphere = std::find_if(families.begin(), families.end(),
                                      [](const auto& f) { return f.name == "sphere"; });
@@ -353,17 +355,17 @@ TEST_CASE("a changed bound would be found to miss the truth", "[hit_bounds]")
     CHECK(lab::check_bounds<double>(subject, group).missed > 0);
 }
 
-TEST_CASE("no bound of extreme rays misses the truth", "[hit_bounds]")
+TEST_CASE("bounds of extreme rays contain the truth", "[hit_bounds]")
 {
     CHECK(check_families(48, 11) > 2000);
 }
 
-TEST_CASE("no bound of a hundred thousand extreme rays misses the truth", "[hit_bounds][slow]")
+TEST_CASE("bounds of a hundred thousand extreme rays contain the truth", "[hit_bounds][slow]")
 {
     CHECK(check_families(1500, 12) > 100000);
 }
 
-TEST_CASE("intersect prints bounds behind the normal", "[hit_bounds]")
+TEST_CASE("intersect prints bounds after the normal", "[hit_bounds]")
 {
     const std::string rays = "0,0,0,0,0,1,0,inf\n0,0,0,0,1,0,0,inf\n0,0,0,0,-1,0,0,inf\n";
     for (const std::string precision : {"single", "double"})
@@ -383,7 +385,7 @@ TEST_CASE("intersect prints bounds behind the normal", "[hit_bounds]")
           "0,4,ball,0,0,-1,4,4\n"
           "0,6,ball,0,0,1,6,6\n"
           "2,2,\"floor, tiled\",0,1,0,2,2\n");
-    // Bounds of no hit are empty: the ray passes the ball by, if only just.
+    // A miss has empty bounds: the ray just passes the ball.
     const ProgramResult past =
         intersect("1.00000001,0,0,0,0,1,0,inf\n", {"--bounds", "--precision", "single"});
     CHECK(past.exit_code == 0);

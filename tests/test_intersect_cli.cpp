@@ -27,7 +27,7 @@ using Words = std::vector<std::string>;
 const std::string closest_header = "hit,t,object,nx,ny,nz\n";
 const std::string all_header = "ray,t,object,nx,ny,nz\n";
 
-// Each ray with the row it must get; t in lengths of the direction.
+// Each ray with its expected row; t in lengths of the direction.
 const std::vector<std::pair<std::string, std::string>> hand_worked{
     {"0,0,0,0,0,1,0,inf", "1,4,ball,0,0,-1"},
     {"0,0,0,0,0,2,0,inf", "1,2,ball,0,0,-1"},
@@ -36,7 +36,7 @@ const std::vector<std::pair<std::string, std::string>> hand_worked{
     // From inside the ball; its normals point outwards.
     {"0,0,5,0,0,2,0,inf", "1,0.5,ball,0,0,1"},
     {"0,0,5,0,4,0,,", "1,0.25,ball,0,1,0"},
-    // The range is open: a hit at its end is none.
+    // The ray interval is open: a hit at its end does not count.
     {"0,0,0,0,0,1,4,inf", "1,6,ball,0,0,1"},
     {"0,0,0,0,0,1,3.875,inf", "1,4,ball,0,0,-1"},
     {"0,0,0,0,0,1,0,4", "0,,,,,"},
@@ -68,7 +68,7 @@ std::string without_header(const std::string& text)
     return text.substr(text.find('\n') + 1);
 }
 
-// Rays at the ball, the floor and past them, and their text.
+// Random rays towards the ball, the floor and past them, and their text.
 template <class Real>
 struct RandomRays {
     RayColumns<Real> columns;
@@ -106,7 +106,7 @@ std::vector<std::string> fields_of(const std::string& row)
     return fields;
 }
 
-// Every t that the library computes must come back from the program's text, bit for bit.
+// Every t that the library computes must be read back from the program's text, bit for bit.
 template <class Real>
 void check_round_trip(const std::string& precision)
 {
@@ -160,7 +160,7 @@ TEST_CASE("rays worked out by hand get their exact rows", "[intersect_cli]")
     }
 }
 
-TEST_CASE("numbers are written so that they come back as they were", "[intersect_cli]")
+TEST_CASE("numbers are written so that reading them gives the same bits", "[intersect_cli]")
 {
     check_round_trip<double>("double");
     check_round_trip<float>("single");
@@ -234,7 +234,7 @@ TEST_CASE("no rays give no rows", "[intersect_cli]")
 
 TEST_CASE("rows keep the rays' order over blocks, kernels and threads", "[intersect_cli]")
 {
-    // Many blocks, and numbers in a --all listing that tell where each ray was.
+    // Many blocks; the numbers in a --all listing identify the rays.
     const std::string rays = random_text(30000);
     const std::string rows = intersect(rays, {"--all", "--threads", "1"}).out;
     for (const std::string threads : {"2", "3", "8"})
@@ -243,7 +243,7 @@ TEST_CASE("rows keep the rays' order over blocks, kernels and threads", "[inters
     const std::string last = rows.substr(rows.rfind('\n', rows.size() - 2) + 1);
     CHECK(std::stoi(last) > 29990);
 
-    // The first hit is the first listed.
+    // The closest hit is the first listed.
     const ProgramResult closest = intersect(rays);
     std::istringstream listed(without_header(rows));
     std::istringstream answers(without_header(closest.out));
@@ -278,7 +278,7 @@ TEST_CASE("rays come from standard input, hits leave by standard output", "[inte
     CHECK(read_text(folder / "err") == "standard output: can't write: No space left on device\n");
 }
 
-TEST_CASE("intersect answers alike by either traversal", "[intersect_cli]")
+TEST_CASE("intersect gives the same answers by either traversal", "[intersect_cli]")
 {
     for (const char* const traversal : {"auto", "list", "tree"}) {
         const ProgramResult result = intersect(hand_rays(), {"--traversal", traversal});
@@ -286,7 +286,7 @@ TEST_CASE("intersect answers alike by either traversal", "[intersect_cli]")
         CHECK(result.out == hand_rows());
     }
     CHECK(intersect("", {"--traversal", "none"}).exit_code == 2);
-    // It traces no secondary rays.
+    // intersect traces no secondary rays.
     CHECK(intersect("", {"--self-hits", "note"}).exit_code == 2);
     CHECK(intersect("", {"--kernel", "scalar", "--traversal", "tree"}).exit_code == 2);
 }
@@ -302,7 +302,7 @@ TEST_CASE("the help of intersect names the columns and every option", "[intersec
         CHECK_THAT(result.out, ContainsSubstring(word));
 }
 
-TEST_CASE("the reference page's example is what comes out", "[intersect_cli]")
+TEST_CASE("intersect prints the example of the reference page", "[intersect_cli]")
 {
     const std::string page = read_text(PACKTRACE_SOURCE_DIR "/docs/intersect.md");
     const auto block = [&](const std::string& kind) {

@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-// What `packtrace intersect` says when something is wrong.
+// Error messages of `packtrace intersect`.
 namespace packtrace::test {
 namespace {
 
@@ -16,7 +16,7 @@ using Words = std::vector<std::string>;
 
 }  // namespace
 
-TEST_CASE("a wrong line is named by line and column, with what to do", "[intersect_errors]")
+TEST_CASE("a wrong line is named by line and column, with a remedy", "[intersect_errors]")
 {
     const std::string wide = "ox,oy,oz,dx,dy,dz,t_min,t_max\n";
     const std::string one = "is no number; write one such as 0.5";
@@ -68,7 +68,8 @@ TEST_CASE("a wrong line is named by line and column, with what to do", "[interse
     }
 }
 
-TEST_CASE("what single precision can't hold is refused or becomes zero", "[intersect_errors]")
+TEST_CASE("numbers that single precision can't hold are refused or become zero",
+          "[intersect_errors]")
 {
     const Words single{"--precision", "single"};
     CHECK(intersect("1e39,0,0,0,0,1\n").exit_code == 0);
@@ -81,7 +82,7 @@ TEST_CASE("what single precision can't hold is refused or becomes zero", "[inter
                ContainsSubstring("rays.csv:1:7: the direction is zero"));
 }
 
-TEST_CASE("directions are taken as long or short as their precision can square",
+TEST_CASE("directions are accepted if their precision can square their length",
           "[intersect_errors]")
 {
     const Words single{"--precision", "single"};
@@ -120,7 +121,7 @@ TEST_CASE("of several wrong lines the first is named, however many threads", "[i
                    ContainsSubstring("rays.csv:40000:11: "));
 }
 
-TEST_CASE("bytes that are no text at all are refused, not believed", "[intersect_errors]")
+TEST_CASE("bytes that are not text are refused", "[intersect_errors]")
 {
     std::mt19937 random(11);
     for (const int size : {1, 10, 1000, 200000}) {

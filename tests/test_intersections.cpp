@@ -7,7 +7,7 @@
 namespace packtrace::test {
 namespace {
 
-/// The modes that differ for packets of Real.
+/// The accuracy modes that differ for packets of Real.
 template <class Real>
 std::vector<Accuracy> modes()
 {
@@ -16,9 +16,9 @@ std::vector<Accuracy> modes()
     return {Accuracy::fast};
 }
 
-/// Every family on every instruction set: the right object wherever that can be decided, and t
-/// as good as the inputs allow; in exact mode as double decides, with t within one unit in its last
-/// place wherever the condition allows that.
+/// Checks every family on every instruction set. The object is right wherever this can be decided.
+/// In fast mode the error of t is within what the rounding of the inputs causes. In exact mode t is
+/// within one unit in its last place.
 template <class Real>
 void check_families(const std::vector<RayFamily>& families)
 {
@@ -37,7 +37,7 @@ void check_families(const std::vector<RayFamily>& families)
             }
 }
 
-/// The object each of a scene's camera rays hits first.
+/// The closest object of each of a scene's camera rays.
 template <class Real>
 std::vector<int> closest_objects(const abi::KernelTable& table, const Scene& scene,
                                  Accuracy accuracy)
@@ -49,8 +49,8 @@ std::vector<int> closest_objects(const abi::KernelTable& table, const Scene& sce
     return objects;
 }
 
-/// `object` with a copy of itself at the end of the scene, behind as many others as fill more
-/// than one packet.
+/// `object` with a copy of itself at the end of the scene; enough other objects between them fill
+/// more than one packet.
 Scene with_a_double(Scene scene, std::size_t object)
 {
     SceneRandom random(31);
@@ -94,8 +94,8 @@ TEST_CASE("a ground of radius 5000 is hit within 200 units of t's last place in 
     }
 }
 
-TEMPLATE_TEST_CASE("of two coincident objects the one of lower number is hit", "[intersections]",
-                   float, double)
+TEMPLATE_TEST_CASE("of two coincident objects the one with the lower number is hit",
+                   "[intersections]", float, double)
 {
     // A sphere, the anchored sphere, and a plane.
     Scene scene = four_spheres(48, 48);
@@ -114,7 +114,7 @@ TEMPLATE_TEST_CASE("of two coincident objects the one of lower number is hit", "
     }
 }
 
-TEMPLATE_TEST_CASE("rays that hit nothing say so", "[intersections]", float, double)
+TEMPLATE_TEST_CASE("rays that hit nothing report a miss", "[intersections]", float, double)
 {
     Scene scene = four_spheres(48, 48);
     scene.camera.position = {0, 80, 0};

@@ -1,4 +1,4 @@
-// Which instruction set a request gets, and what a wrong request is told.
+// Which instruction set a request gets, and the message for a wrong request.
 #include "catch.hpp"
 #include "dispatch/kernels.hpp"
 #include "environment.hpp"
@@ -41,7 +41,7 @@ constexpr const char* variable = "PACKTRACE_ISA";
 
 }  // namespace
 
-TEST_CASE("instruction sets are listed narrowest first, doubles with half the lanes, but one",
+TEST_CASE("instruction sets are listed narrowest first, and doubles have half the lanes, or one",
           "[isa]")
 {
     const std::vector<IsaInfo> isas = list_isas();
@@ -67,7 +67,7 @@ TEST_CASE("a forced instruction set is the one that runs", "[isa]")
     }
 }
 
-TEST_CASE("auto takes the widest there is, or of the width asked for", "[isa]")
+TEST_CASE("auto takes the widest instruction set, or one of the requested width", "[isa]")
 {
     const ScopedVariable unset(variable, std::nullopt);
     CHECK(choose_isa().name == runnable_isas().back().name);
@@ -85,7 +85,7 @@ TEST_CASE("of two instruction sets of one width, auto takes the better one", "[i
     CHECK(choose_isa("auto", 4).name == best);
 }
 
-TEST_CASE("PACKTRACE_ISA decides for auto, and for nothing else", "[isa]")
+TEST_CASE("PACKTRACE_ISA decides only for auto", "[isa]")
 {
     for (const IsaInfo& isa : runnable_isas()) {
         const ScopedVariable set(variable, isa.name);
@@ -95,7 +95,7 @@ TEST_CASE("PACKTRACE_ISA decides for auto, and for nothing else", "[isa]")
     }
 }
 
-TEST_CASE("an empty or auto PACKTRACE_ISA counts as none", "[isa]")
+TEST_CASE("an empty PACKTRACE_ISA and the value auto count as unset", "[isa]")
 {
     for (const char* value : {"", "auto"}) {
         const ScopedVariable set(variable, value);
@@ -103,7 +103,7 @@ TEST_CASE("an empty or auto PACKTRACE_ISA counts as none", "[isa]")
     }
 }
 
-TEST_CASE("an unknown instruction set is refused with what there is", "[isa]")
+TEST_CASE("an unknown instruction set is refused with a list of the known ones", "[isa]")
 {
     CHECK(refusal("mmx", 0) ==
           "isa: unknown instruction set 'mmx'; choose auto or one of:" + supported_text());
@@ -118,7 +118,7 @@ TEST_CASE("an unknown instruction set is refused with what there is", "[isa]")
               supported_text());
 }
 
-TEST_CASE("an instruction set the machine lacks is refused with what it has", "[isa]")
+TEST_CASE("an instruction set that the machine lacks is refused with a list of its sets", "[isa]")
 {
     const ScopedVariable unset(variable, std::nullopt);
     for (const IsaInfo& isa : list_isas()) {
@@ -149,7 +149,7 @@ TEST_CASE("a width that no instruction set has is refused", "[isa]")
           "width: no instruction set of this machine has 5 lanes; it can run:" + supported_text());
 }
 
-// The next two are for a processor without AVX, which check_without_avx.sh emulates.
+// The next two tests are for a processor without AVX, which check_without_avx.sh emulates.
 
 TEST_CASE("without AVX sse42 is chosen, and forcing more is a clean error", "[.without_avx]")
 {
@@ -166,7 +166,7 @@ TEST_CASE("without AVX sse42 is chosen, and forcing more is a clean error", "[.w
 
 TEST_CASE("the AVX kernels are run without asking the processor", "[.unchecked_avx]")
 {
-    // Not the test frame's handler, which would hide what the signal was.
+    // The default handler: the test framework's handler would hide the signal.
     std::signal(SIGILL, SIG_DFL);
     for (const abi::KernelTable* table : all_kernels()) {
         if (std::string(table->isa) != "avx2")

@@ -1,4 +1,4 @@
-// Jobs on a thread of their own: frames are written so while the next ones render.
+// Jobs on a background thread, which writes frames while the next frames are rendered.
 #include "catch.hpp"
 #include "core/job_queue.hpp"
 
@@ -21,7 +21,7 @@ TEST_CASE("jobs run in the order they come", "[job_queue]")
     CHECK(jobs.seconds() > 0.0);
 }
 
-TEST_CASE("work goes on while a job runs", "[job_queue]")
+TEST_CASE("other work continues while a job runs", "[job_queue]")
 {
     std::promise<void> go_on;
     bool second = false;
@@ -34,7 +34,8 @@ TEST_CASE("work goes on while a job runs", "[job_queue]")
     CHECK(second);
 }
 
-TEST_CASE("what a job throws reaches whoever adds the next or finishes", "[job_queue]")
+TEST_CASE("an exception of a job reaches the caller who adds the next job or finishes",
+          "[job_queue]")
 {
     int done = 0;
     JobQueue jobs;
@@ -48,7 +49,7 @@ TEST_CASE("what a job throws reaches whoever adds the next or finishes", "[job_q
     CHECK(done == 0);
 }
 
-TEST_CASE("jobs that have come run where their queue ends early", "[job_queue]")
+TEST_CASE("added jobs still run if their queue is destroyed early", "[job_queue]")
 {
     int done = 0;
     {

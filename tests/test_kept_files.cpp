@@ -1,5 +1,5 @@
-// What a command writes never takes the place of what it reads, or of its other output; options
-// that would do nothing are refused.
+// A command never overwrites its own input or its other output. Options without an effect are
+// refused.
 #include "catch.hpp"
 #include "run_program.hpp"
 #include "temp_folder.hpp"
@@ -35,7 +35,7 @@ public:
         return (folder_ / name).string();
     }
 
-    /// That the command is refused, in one line with `reason`, and changes nothing.
+    /// Checks that the command is refused in one line with `reason`, and changes no file.
     void check_refused(const Words& words, const std::string& reason) const
     {
         const std::vector<std::string> names = folder_.names();
@@ -58,7 +58,7 @@ private:
 
 }  // namespace
 
-TEST_CASE("no output takes the place of what the command reads", "[kept_files]")
+TEST_CASE("no output replaces an input of the command", "[kept_files]")
 {
     const Desk desk;
     const std::string scene = desk.at("a.scene");
@@ -88,7 +88,7 @@ TEST_CASE("no two outputs of a command are one file", "[kept_files]")
         {"render", scene, "-o", desk.at("new.pfm"), "--certainty", desk.at("./new.pfm")}, reason);
     desk.check_refused(
         {"profile", scene, "--heatmap", desk.at("new.png"), "--trace", desk.at("new.png")}, reason);
-    // Names that no file can have are not one file.
+    // Two different names too long for any file do not count as one file.
     desk.check_refused({"render", scene, "-o", desk.at(std::string(300, 'a') + ".pfm"),
                         "--certainty", desk.at(std::string(300, 'b') + ".pfm")},
                        "File name too long");
@@ -103,7 +103,7 @@ TEST_CASE("a file beside the output that is not of an earlier run is left alone"
     CHECK(read_text(desk.at("b.png.part")) == "mine");
 }
 
-TEST_CASE("options that would do nothing are refused", "[kept_files]")
+TEST_CASE("options without an effect are refused", "[kept_files]")
 {
     const Desk desk;
     const std::string scene = desk.at("a.scene");

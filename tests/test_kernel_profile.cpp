@@ -1,4 +1,4 @@
-// What kernels observe of themselves: stages, rays, lanes, tests.
+// Measurements inside the kernels: stages, rays, lanes, tests.
 #include "catch.hpp"
 #include "dispatch/kernels.hpp"
 #include "lab/profile/observed_frame.hpp"
@@ -19,7 +19,7 @@
 namespace packtrace::test {
 namespace {
 
-// What may be recorded of a frame.
+// The measurements that are recorded of a frame.
 struct Records {
     std::vector<abi::StageTicks> stages;
     std::vector<abi::StepTicks> steps;
@@ -100,13 +100,13 @@ Scene scene_file(const std::string& name, int width = 50, int height = 35)
     return sized(read_scene(PACKTRACE_SOURCE_DIR "/scenes/" + name + ".scene"), width, height);
 }
 
-// Lists and hierarchies, mirrors, glass, quadrics, transparent shadows.
+// Scenes with lists and with a bvh, with mirrors, glass, quadrics and transparent shadows.
 std::vector<Scene> all_sorts()
 {
     Scene many = random_spheres(150, 7);
     many.max_depth = 3;
-    // Each pixel of nested glass has thousands of rays: a sixth of the pixels has more than the
-    // rest.
+    // Each pixel of nested glass has thousands of rays: with a sixth of the pixels it still has
+    // more rays than the other scenes.
     return {four_spheres(50, 35), many, scene_file("quadrics"), scene_file("nested_glass", 21, 15),
             scene_file("transparent_shadows")};
 }
@@ -186,7 +186,7 @@ double seconds_of(const std::vector<KernelStage>& stages, const std::string& ray
 
 }  // namespace
 
-TEST_CASE("observing changes no bit of a picture", "[kernel_profile]")
+TEST_CASE("recording changes no bit of a picture", "[kernel_profile]")
 {
     for (const std::string& isa : supported_isas())
         for (const Scene& scene : all_sorts()) {
@@ -195,7 +195,8 @@ TEST_CASE("observing changes no bit of a picture", "[kernel_profile]")
         }
 }
 
-TEST_CASE("the rays counted by generation are the frame's, each once", "[kernel_profile]")
+TEST_CASE("the rays counted by generation are those of the frame, each counted once",
+          "[kernel_profile]")
 {
     for (const std::string& isa : supported_isas())
         for (const Scene& scene : all_sorts()) {
@@ -223,18 +224,18 @@ TEST_CASE("reflected rays are tested at most once against each object of a list"
                 const std::uint64_t hits = packets_of(at, abi::PacketWork::shade).live;
                 REQUIRE(live > 0);
                 const std::uint64_t pairs = all_pairs(at, abi::RayPurpose::own);
-                // Rays that are unsure are tested again, in double, against everything.
+                // Rays that single precision is unsure of are tested again in double, against all
+                // objects.
                 const std::uint64_t again = accuracy == Accuracy::exact ? live / 100 + 2 : 0;
                 CHECK(pairs <= 4 * (live + again));
-                // They are spared what they can't reach.
+                // Culling saves tests, but each hit needs one.
                 CHECK(pairs >= hits);
             }
             CHECK(all_pairs(frame.counts[0], abi::RayPurpose::own) <= 4 * frame.rays.camera);
         }
 }
 
-TEST_CASE("rays are not tested against the one body that all of a packet start on",
-          "[kernel_profile]")
+TEST_CASE("rays are not tested against a body that all of a packet start on", "[kernel_profile]")
 {
     Scene scene;
     set_size(scene, 32, 32);
@@ -251,12 +252,12 @@ TEST_CASE("rays are not tested against the one body that all of a packet start o
         }
 }
 
-TEST_CASE("tests are counted by kind, and shadow rays apart", "[kernel_profile]")
+TEST_CASE("tests are counted by kind, and those of shadow rays separately", "[kernel_profile]")
 {
     Scene scene;
     set_size(scene, 32, 32);
     add_plane(scene, {0, 0, 3}, {0, 0, -1}, scratch({1, 1, 1}, -1, 0));
-    // In the way of the light, behind the camera.
+    // Occludes the light, behind the camera.
     add_plane(scene, {0, 0, -5}, {0, 0, 1}, scratch({1, 1, 1}, -1, 0));
     scene.lights = {{LightType::directional, Rgb(1.0), {0, 0, -1}}};
     const Counted frame = counted<double>(scene, supported_isas().front());
@@ -270,7 +271,7 @@ TEST_CASE("tests are counted by kind, and shadow rays apart", "[kernel_profile]"
     CHECK(packets_of(at, abi::PacketWork::children).packets == 0);
 }
 
-TEST_CASE("nodes are met only where there is a hierarchy, which saves tests", "[kernel_profile]")
+TEST_CASE("nodes are visited only in a bvh, which saves tests", "[kernel_profile]")
 {
     const Scene scene = random_spheres(150, 7);
     const RenderOptions list{.traversal = Traversal::list};
@@ -285,7 +286,7 @@ TEST_CASE("nodes are met only where there is a hierarchy, which saves tests", "[
             CHECK(all_nodes(at) > 0);
             CHECK(packets_of(at, abi::PacketWork::trace).live ==
                   packets_of(without, abi::PacketWork::trace).live);
-            // A hit was tested for; most other objects were not.
+            // Each hit needed a test; most other objects were not tested.
             CHECK(all_pairs(at, abi::RayPurpose::own) >=
                   packets_of(at, abi::PacketWork::shade).live);
             if (depth > 0)
@@ -295,9 +296,9 @@ TEST_CASE("nodes are met only where there is a hierarchy, which saves tests", "[
     }
 }
 
-TEST_CASE("cells without a ray are not tested against anything", "[kernel_profile]")
+TEST_CASE("cells without a ray are not tested against any object", "[kernel_profile]")
 {
-    // One tile, whose mirrored rays fill few of their group's cells.
+    // One tile, whose mirrored rays fill few cells of their bundle.
     Scene scene = sized(random_spheres(400, 7), 16, 16);
     for (Object& object : scene.objects)
         object.material = scratch({1, 1, 1}, -1, 0);
@@ -316,7 +317,7 @@ TEST_CASE("cells without a ray are not tested against anything", "[kernel_profil
     }
 }
 
-TEST_CASE("live lanes are some of each packet, and coherent packets have all", "[kernel_profile]")
+TEST_CASE("packets have live lanes, and coherent packets have only live lanes", "[kernel_profile]")
 {
     for (const std::string& isa : supported_isas())
         for (const Scene& scene : all_sorts()) {
@@ -335,7 +336,7 @@ TEST_CASE("live lanes are some of each packet, and coherent packets have all", "
         }
 }
 
-TEST_CASE("packets that see one surface are coherent, those that see nothing are not made",
+TEST_CASE("packets that see one surface are coherent, and packets that see nothing are not traced",
           "[kernel_profile]")
 {
     const std::string isa = supported_isas().back();
@@ -357,7 +358,7 @@ TEST_CASE("packets that see one surface are coherent, those that see nothing are
     CHECK_FALSE(lanes_filled(empty.counts[0], empty.lanes).has_value());
 }
 
-TEST_CASE("a stage is divided in the shares of its steps, and for no more rays than it had",
+TEST_CASE("a stage's time is divided in proportion to its steps, over the rays that it had",
           "[kernel_profile]")
 {
     GenerationTimes first;
@@ -365,12 +366,12 @@ TEST_CASE("a stage is divided in the shares of its steps, and for no more rays t
     GenerationTimes second;
     second.stage[static_cast<std::size_t>(abi::Stage::trace)] = 8.0;
     second.refracted = 0.25;
-    // 100 ticks but for two readings of 10, and 60 but for one.
+    // 100 ticks minus two clock readings of 10, and 30 ticks minus one.
     abi::StepTicks shade =
         ticks_of(abi::Stage::shade, abi::RayPurpose::own, abi::Step::diffuse, {100, 2});
     shade.step[static_cast<int>(abi::Stage::shade)][static_cast<int>(abi::RayPurpose::shadow)]
               [static_cast<int>(abi::Step::spheres)] = {30, 1};
-    // Less than its readings: divided as it is.
+    // Fewer ticks than its clock readings take: divided without subtracting them.
     const abi::StepTicks trace =
         ticks_of(abi::Stage::trace, abi::RayPurpose::own, abi::Step::boxes, {5, 1});
     StageSeconds seconds(2);
@@ -383,7 +384,7 @@ TEST_CASE("a stage is divided in the shares of its steps, and for no more rays t
     CHECK(seconds_of(stages, "refracted", "traversal of boxes") == 2.0);
 }
 
-TEST_CASE("the time of a frame is of its pieces' medians", "[kernel_profile]")
+TEST_CASE("the time of a frame is the sum of its pieces' medians", "[kernel_profile]")
 {
     PieceTimes times(2);
     for (const double seconds : {1.0, 50.0, 2.0})
@@ -392,7 +393,7 @@ TEST_CASE("the time of a frame is of its pieces' medians", "[kernel_profile]")
     CHECK(times.frame() == 12.0);
 }
 
-TEST_CASE("stages belong to rays that there are", "[kernel_profile]")
+TEST_CASE("stages belong to existing rays", "[kernel_profile]")
 {
     const std::string file = PACKTRACE_SOURCE_DIR "/scenes/nested_glass.scene";
     const ProfileOptions options{.repetitions = 3};
@@ -410,7 +411,7 @@ TEST_CASE("stages belong to rays that there are", "[kernel_profile]")
                })));
         sum += stage.seconds;
     }
-    // Rays are found by some of the stages.
+    // Only some of the stages find rays.
     double rays = 0.0;
     for (const RayTime& row : kernels.rays)
         rays += row.seconds;
@@ -418,9 +419,10 @@ TEST_CASE("stages belong to rays that there are", "[kernel_profile]")
     CHECK(rays < sum);
 }
 
-TEST_CASE("rays traced again in double are a stage, and counted by cause", "[kernel_profile]")
+TEST_CASE("tracing rays again in double is a stage, and these rays are counted by cause",
+          "[kernel_profile]")
 {
-    // Two balls that are nearly one: nothing tells which is hit first.
+    // Two nearly equal balls: rounding decides which is hit first.
     Scene scene = four_spheres(48, 48);
     std::get<Sphere>(scene.objects[1].surface) = std::get<Sphere>(scene.objects[0].surface);
     std::get<Sphere>(scene.objects[1].surface).radius *= 1.0 + 1e-9;

@@ -1,4 +1,5 @@
-// Programs that are ended at any moment leave whole files or none, and nothing after the next run.
+// A program that is ended at any moment leaves only whole files, and nothing temporary after the
+// next run.
 #include "catch.hpp"
 #include "core/atomic_file.hpp"
 #include "fork_child.hpp"
@@ -17,7 +18,7 @@
 namespace packtrace::test {
 namespace {
 
-/// Blocks all signals of this thread.
+/// Blocks all signals for this thread.
 class BlockedSignals {
 public:
     BlockedSignals()
@@ -42,12 +43,12 @@ private:
     sigset_t before_{};
 };
 
-/// Starts `packtrace` with its output thrown away.
+/// Starts `packtrace` and discards its output.
 pid_t start_quietly(std::vector<std::string> words)
 {
     words.insert(words.begin(), PACKTRACE_CLI);
-    // No signal reaches the copy of this program before it has become the other: the handlers of
-    // the test framework would answer.
+    // No signal may reach the forked copy before it has become packtrace: the test framework's
+    // handlers would run.
     const BlockedSignals blocked;
     return fork_child([&] {
         for (const int ending : {SIGTERM, SIGINT})
@@ -60,7 +61,7 @@ pid_t start_quietly(std::vector<std::string> words)
     });
 }
 
-/// Starts the program and ends it by a signal after so long; it may have ended before.
+/// Starts the program and ends it by a signal after this time; the program may have ended earlier.
 void start_and_end(const Work& work, const TempFolder& folder, int number, int microseconds)
 {
     const pid_t process = start_quietly(words_of(work, folder));
@@ -96,7 +97,7 @@ void end_at_any_moment(int moments, unsigned seed)
     }
 }
 
-/// Creates one file after another, until the process ends.
+/// Creates one file after another until the process ends.
 void write_without_end(const std::filesystem::path& target)
 {
     while (true) {
@@ -106,7 +107,7 @@ void write_without_end(const std::filesystem::path& target)
     }
 }
 
-/// A process of two writers that ends as the handler of signals ends it.
+/// A process with two writers that ends as the signal handler ends it.
 [[noreturn]] void write_and_end(const TempFolder& folder, int microseconds)
 {
     for (const char* const name : {"a", "b"})
@@ -118,7 +119,7 @@ void write_without_end(const std::filesystem::path& target)
 
 }  // namespace
 
-TEST_CASE("no temporary file appears behind a program's clearing up", "[kills]")
+TEST_CASE("no temporary file appears after a program has cleaned up", "[kills]")
 {
     const TempFolder folder;
     for (int i = 0; i < 300; ++i) {

@@ -1,5 +1,5 @@
-// Directional light along planes and caps, and from points where rounding tells no side: on two
-// surfaces at once, or at the world's origin.
+// Directional light parallel to planes and caps. Also light at points whose side of a surface
+// rounding hides: on two surfaces at once, or at the world's origin.
 #include "catch.hpp"
 #include "packet_ways.hpp"
 #include <packtrace/read_scene.hpp>
@@ -57,8 +57,8 @@ std::string vector_text(double x, double y, double z)
     return text.str();
 }
 
-/// The cap of a cylinder turned about y, filling the view, with light along it whose highlight
-/// every pixel of it sees if any does.
+/// The cap of a cylinder turned about y fills the view; the light runs along the cap. All pixels
+/// see the light's highlight, or none does.
 Scene lit_cap(const std::string& illumination, const std::string& material, int degrees)
 {
     const double angle = degrees * std::numbers::pi / 180.0;
@@ -87,9 +87,10 @@ void check_lit_alike(const Image<Real>& image)
 
 }  // namespace
 
-TEST_CASE("What runs along parallel light is not in its way", "[level_light]")
+TEST_CASE("A surface along parallel light does not occlude it", "[level_light]")
 {
-    // The light is level: along the floor and the ceiling, which it neither meets nor touches.
+    // The light is horizontal: it runs along the floor and the ceiling and neither hits nor touches
+    // them.
     for (const char* light : {"(1, 0, -1)", "(-1, 0, -1)"})
         for (const char* normal : {"(0, 1, 0)", "(0, -1, 0)"})
             for (const char* height : {"-4", "4"}) {
@@ -112,10 +113,10 @@ TEST_CASE("What runs along parallel light is not in its way", "[level_light]")
     }
 }
 
-TEST_CASE("A surface that runs along parallel light to infinity is no shadow of its own",
+TEST_CASE("A surface that extends along parallel light to infinity does not shadow itself",
           "[level_light]")
 {
-    // The light runs along lines of the cones that these come near to, far away.
+    // The light runs along lines of the cones that these surfaces approach far away.
     for (const char* surface : {"hyperboloid2 { translate = (0, 0, 0.5)  diffuse = 0.5 }",
                                 "hyperboloid { scale = (0.5, 0.5, 0.5)  diffuse = 0.5 }"})
         for (const char* light : {"(0, 1, -1)", "(0, -1, -1)", "(1, 0, -1)", "(-1, 0, -1)"}) {
@@ -124,9 +125,9 @@ TEST_CASE("A surface that runs along parallel light to infinity is no shadow of 
         }
 }
 
-TEST_CASE("What a lit point lies on exactly is not in its way", "[level_light]")
+TEST_CASE("A surface through a lit point does not occlude the light", "[level_light]")
 {
-    // The middle column of pixels is at x = 0, in the plane across it.
+    // The middle column of pixels is at x = 0, in the plane across the wall.
     for (const char* light : {"(1, 0.5, -1)", "(-1, 0.5, -1)"})
         for (const char* normal : {"(1, 0, 0)", "(-1, 0, 0)"}) {
             CAPTURE(light, normal);
@@ -136,7 +137,7 @@ TEST_CASE("What a lit point lies on exactly is not in its way", "[level_light]")
         }
 }
 
-TEST_CASE("Glass along parallel light passes all of it on", "[level_light]")
+TEST_CASE("Glass along parallel light passes all of the light", "[level_light]")
 {
     for (const char* normal : {"(0, 1, 0)", "(0, -1, 0)"}) {
         CAPTURE(normal);
@@ -147,7 +148,7 @@ TEST_CASE("Glass along parallel light passes all of it on", "[level_light]")
     }
 }
 
-TEST_CASE("Light along a cap shines on all of it or on none", "[level_light]")
+TEST_CASE("Light along a cap lights all of it or none of it", "[level_light]")
 {
     for (const int degrees : {10, 20, 30, 45, 60})
         for (const bool scratch : {false, true}) {
@@ -165,7 +166,7 @@ TEST_CASE("Light along a cap shines on all of it or on none", "[level_light]")
         }
 }
 
-TEST_CASE("A body seen from inside at the world's origin keeps light from behind away",
+TEST_CASE("A body seen from inside at the world's origin occludes light from behind",
           "[level_light]")
 {
     for (const char* light :

@@ -10,11 +10,11 @@
 #include <cmath>
 #include <random>
 
-// A light's own view of the spheres of a hierarchy gives the shadows that lists give, bit for bit.
+// A light buffer of the spheres in a bvh gives the same shadows as lists, bit for bit.
 namespace packtrace::test {
 namespace {
 
-/// Spheres of sizes from 0.01 to 1 around (0, 0, 6), some in each other, over a ground.
+/// Spheres of radius 0.01 to 1 around (0, 0, 6), some inside each other, over a ground.
 Scene crowd(int count, unsigned seed)
 {
     std::mt19937 random(seed);
@@ -43,7 +43,7 @@ void light_along(Scene& scene, const Vec3& direction)
         Light{.type = LightType::directional, .intensity = Rgb(0.6), .vector = direction}};
 }
 
-/// Of the only light.
+/// Whether the scene's only light has a buffer.
 bool has_buffer(const Scene& scene)
 {
     const LoweredScene lowered = lower(scene);
@@ -70,7 +70,7 @@ void check_against_lists(const Scene& scene, SelfHits self_hits)
 
 }  // namespace
 
-TEST_CASE("A light's view of a crowd of spheres gives the shadows of lists", "[light_buffer]")
+TEST_CASE("A light buffer of many spheres gives the shadows of lists", "[light_buffer]")
 {
     const Vec3 positions[] = {{9, 12, -7}, {0, 30, 6}, {0, 0, -3}, {60, 100, -70}};
     for (const Vec3& position : positions)
@@ -83,8 +83,7 @@ TEST_CASE("A light's view of a crowd of spheres gives the shadows of lists", "[l
         }
 }
 
-TEST_CASE("Parallel light's view of a crowd of spheres gives the shadows of lists",
-          "[light_buffer]")
+TEST_CASE("A parallel light's buffer of many spheres gives the shadows of lists", "[light_buffer]")
 {
     const Vec3 directions[] = {{1, 2, -1}, {0, 1, 0}, {-3e5, 1e5, 2e5}, {1, 0.02, -0.3}};
     for (const Vec3& direction : directions)
@@ -97,9 +96,9 @@ TEST_CASE("Parallel light's view of a crowd of spheres gives the shadows of list
         }
 }
 
-TEST_CASE("Parallel light reaches what is far behind its view of the spheres", "[light_buffer]")
+TEST_CASE("Parallel light reaches objects far behind the spheres in its buffer", "[light_buffer]")
 {
-    // A wall so far away that rounding there is as large as a cell of the view.
+    // A wall so far away that rounding there is as large as a cell of the buffer.
     Scene scene = crowd(400, 12);
     scene.camera.fov = 3.0;
     scene.camera.position = {0, 0, -60};
@@ -110,7 +109,7 @@ TEST_CASE("Parallel light reaches what is far behind its view of the spheres", "
     check_against_lists(scene, SelfHits::exact);
 }
 
-TEST_CASE("A light's view leaves out what casts no shadow", "[light_buffer]")
+TEST_CASE("A light buffer skips objects that cast no shadow", "[light_buffer]")
 {
     Scene scene = crowd(400, 8);
     light_from(scene, {9, 12, -7});
@@ -120,7 +119,8 @@ TEST_CASE("A light's view leaves out what casts no shadow", "[light_buffer]")
     check_against_lists(scene, SelfHits::exact);
 }
 
-TEST_CASE("A light among the spheres, or few rays, make no view", "[light_buffer]")
+TEST_CASE("A light among the spheres has no buffer, and neither has a frame with few rays",
+          "[light_buffer]")
 {
     Scene scene = crowd(400, 9);
     light_from(scene, {0.3, 0.4, 6});
@@ -133,7 +133,7 @@ TEST_CASE("A light among the spheres, or few rays, make no view", "[light_buffer
     CHECK_FALSE(has_buffer(scene));
 }
 
-TEST_CASE("Spheres that are in each other make no view, which would be larger than they",
+TEST_CASE("Spheres inside each other have no light buffer, which would be larger than they are",
           "[light_buffer]")
 {
     Scene scene = crowd(1000, 11);
@@ -147,7 +147,7 @@ TEST_CASE("Spheres that are in each other make no view, which would be larger th
     CHECK_FALSE(has_buffer(scene));
     check_against_lists(scene, SelfHits::exact);
 
-    // A single one that is as large hides the others, and takes little.
+    // One sphere of this size hides the others, and the buffer stays small.
     scene = crowd(1000, 11);
     set_size(scene, 160, 120);
     light_from(scene, {20, 30, -15});
@@ -155,7 +155,7 @@ TEST_CASE("Spheres that are in each other make no view, which would be larger th
     CHECK(has_buffer(scene));
 }
 
-TEST_CASE("Lights get views with the frame that pays for them, and frames stay the same",
+TEST_CASE("Lights get buffers with the frame that pays for them, and frames stay the same",
           "[light_buffer]")
 {
     Scene scene = crowd(400, 10);
@@ -178,7 +178,7 @@ TEST_CASE("Lights get views with the frame that pays for them, and frames stay t
     CHECK(later.rgb == first.rgb);
 }
 
-TEST_CASE("Spheres side by side and one that hides others have the shadows of lists",
+TEST_CASE("Spheres side by side, and a sphere that hides others, have the shadows of lists",
           "[light_buffer]")
 {
     Scene scene = generate_sphereflake({.depth = 3, .reflective = 0.3});

@@ -1,4 +1,4 @@
-// Which points lights reach: RayScene::lit().
+// The points that lights reach: RayScene::lit().
 #include "catch.hpp"
 #include "lower/packed_scene.hpp"
 #include "packet_ways.hpp"
@@ -28,7 +28,7 @@ namespace {
 
 using Mask = std::vector<std::uint8_t>;
 
-/// Rays, what they hit, and where.
+/// Rays with their hits and hit points.
 template <class Real>
 struct Seen {
     std::array<std::vector<Real>, 8> rays;
@@ -46,7 +46,7 @@ struct Seen {
     }
 };
 
-/// From around a place into a cube around another.
+/// Rays from around one point into a cube around another.
 template <class Real>
 Seen<Real> look(const RayScene<Real>& scene, std::size_t count, const Vec3& from, double spread,
                 const Vec3& to, double size)
@@ -104,8 +104,8 @@ long double dot(const Vec& a, const Vec& b)
     return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 }
 
-/// Whether a sphere is between a point and a light, in more digits; nothing where rounding the
-/// point might decide.
+/// Whether a sphere is between a point and a light, in long double; no value if the rounding of the
+/// point may decide.
 std::optional<bool> is_between(const Sphere& ball, const Vec& point, const Vec& way, bool endless,
                                bool own)
 {
@@ -130,7 +130,7 @@ std::optional<bool> is_between(const Sphere& ball, const Vec& point, const Vec& 
         return {};
     if (distance > r)
         return false;
-    // The way comes into the ball: it crosses the sphere unless both ends are inside.
+    // The segment enters the ball: it hits the sphere unless both ends are inside.
     if (endless)
         return true;
     const Vec last{w[0] + way[0], w[1] + way[1], w[2] + way[2]};
@@ -140,7 +140,7 @@ std::optional<bool> is_between(const Sphere& ball, const Vec& point, const Vec& 
     return from_last > r || dot(start, start) > r * r;
 }
 
-/// The same of all spheres of a scene.
+/// Whether a light reaches a point past all spheres of a scene.
 template <class Real>
 std::optional<bool> is_lit(const Scene& scene, const Light& light, const Seen<Real>& seen,
                            std::size_t i)
@@ -166,7 +166,7 @@ std::optional<bool> is_lit(const Scene& scene, const Light& light, const Seen<Re
     return unknown ? std::optional<bool>() : true;
 }
 
-/// Of spheres alone, answers against more digits. Most points have to be decidable.
+/// Compares answers for a scene of spheres with long double. Most points must be decidable.
 template <class Real>
 void check_spheres(const Scene& scene, const RenderOptions& options, const Seen<Real>& seen,
                    const RayScene<Real>& rays)
@@ -214,7 +214,7 @@ Scene crowd(int count)
     return scene;
 }
 
-/// One point of the world, from elsewhere.
+/// One point of the world that is not on a known surface.
 Mask one_point(const RayScene<double>& scene, const Vec3& at, std::size_t light)
 {
     const double x[] = {at.x};
@@ -223,8 +223,8 @@ Mask one_point(const RayScene<double>& scene, const Vec3& at, std::size_t light)
     return lit(scene, {{x, y, z}, nullptr, 1}, light);
 }
 
-/// The only light reaches no point of the high cap of the only body, which is about at `cap` and as
-/// wide as high; seen from beyond.
+/// Checks that the only light reaches no point of the upper cap of the only body. The cap is about
+/// at `cap`, as wide as high, and seen from beyond.
 template <class Real>
 void check_dark_cap(const RayScene<Real>& rays, std::size_t count, double height, const Vec3& cap)
 {
@@ -243,7 +243,7 @@ void check_dark_cap(const RayScene<Real>& rays, std::size_t count, double height
 
 }  // namespace
 
-TEST_CASE("a ball's shadow is where it is worked out by hand", "[lit]")
+TEST_CASE("a ball's shadow is where calculation by hand puts it", "[lit]")
 {
     const Scene scene = parse_scene(R"(
         sphere { center = (0, 2, 0)  radius = 1 }
@@ -272,7 +272,7 @@ TEST_CASE("a ball's shadow is where it is worked out by hand", "[lit]")
     }
 }
 
-TEST_CASE("lights reach what infinite precision lets them reach among spheres", "[lit]")
+TEST_CASE("lights reach the same points among spheres as in exact arithmetic", "[lit]")
 {
     const Scene scene = crowd(150);
     for (RenderOptions options : packet_ways()) {
@@ -288,7 +288,7 @@ TEST_CASE("lights reach what infinite precision lets them reach among spheres", 
     }
 }
 
-TEST_CASE("lights however far reach what infinite precision lets them reach", "[lit]")
+TEST_CASE("lights at any distance reach the same points as in exact arithmetic", "[lit]")
 {
     for (const double distance : {1e3, 1e5, 1e7, 5e8}) {
         CAPTURE(distance);
@@ -305,7 +305,8 @@ TEST_CASE("lights however far reach what infinite precision lets them reach", "[
     }
 }
 
-TEST_CASE("a moved scene's lights reach what a new one's do, far ones too", "[lit]")
+TEST_CASE("in a moved scene lights reach the same points as in a new scene, far lights too",
+          "[lit]")
 {
     Scene scene = parse_scene(R"(
         sphere { center = (0, 0, 3)  radius = 0.3 }
@@ -326,7 +327,7 @@ TEST_CASE("a moved scene's lights reach what a new one's do, far ones too", "[li
     }
 }
 
-TEST_CASE("lights' own views change no answer, in as many calls as it takes", "[lit]")
+TEST_CASE("light buffers change no answer, however many calls ask", "[lit]")
 {
     const Scene scene = crowd(300);
     RenderOptions options{.traversal = Traversal::list};
@@ -417,7 +418,8 @@ TEST_CASE("a lamp in the wall of a dome lights all of it, and one behind the wal
             for (std::size_t light = 0; light < 3; ++light) {
                 const Mask mask = lit(rays, seen.points(), light);
                 for (std::size_t i = 0; i < seen.count(); ++i) {
-                    // A cap that high has the light behind it, on its outer side, which it lights.
+                    // A cap this high has the light behind it, on its outer side, which the light
+                    // reaches.
                     const bool counts = seen.object[i] >= 0 && seen.point[1][i] < 1.9;
                     hits += light == 0 && counts ? 1 : 0;
                     reached[light] += counts ? mask[i] : 0;
@@ -436,11 +438,11 @@ TEST_CASE("a lamp in the wall of a dome lights all of it, and one behind the wal
     }
 }
 
-TEMPLATE_TEST_CASE("a lamp beyond where a long cone is cut lights nothing of its far end", "[lit]",
+TEMPLATE_TEST_CASE("a lamp beyond the cut of a long cone lights nothing of its far end", "[lit]",
                    float, double)
 {
-    // Its place has the sign of what is inside, in the half of the cone that is not there, and lies
-    // next to the near end for what is this far away.
+    // At the lamp the cone's equation has the sign of an inner point, but that half of the cone is
+    // cut off. Seen from the far end, the lamp is next to the near end.
     const double heights[] = {1e3, 1e5, 1e7, sizeof(TestType) == sizeof(float) ? 1e8 : 1e13};
     for (const double height : heights) {
         const std::string z_range = "z_range = (-0.25, " + std::to_string(height) + ")";
@@ -457,10 +459,10 @@ TEMPLATE_TEST_CASE("a lamp beyond where a long cone is cut lights nothing of its
     }
 }
 
-TEMPLATE_TEST_CASE("the half of a body that a lamp is in hides it from the other half's far end",
+TEMPLATE_TEST_CASE("the half of a body around a lamp hides the lamp from the other half's far end",
                    "[lit]", float, double)
 {
-    // The way goes out of the one half and into the other, both next to the lamp.
+    // The segment leaves one half and enters the other; both hits are close to the lamp.
     const double heights[] = {1e3, 1e4, 1e6, sizeof(TestType) == sizeof(float) ? 1e7 : 1e10};
     for (const double height : heights)
         for (const std::string body :
@@ -479,11 +481,10 @@ TEMPLATE_TEST_CASE("the half of a body that a lamp is in hides it from the other
         }
 }
 
-TEMPLATE_TEST_CASE(
-    "a lamp next to a cone's apex lights all of the half that it is in, and no other", "[lit]",
-    float, double)
+TEMPLATE_TEST_CASE("a lamp next to a cone's apex lights all of its half of the cone, and no other",
+                   "[lit]", float, double)
 {
-    // In single precision the points themselves are that far off the cone.
+    // In single precision the points themselves are this far off the cone.
     const std::vector<double> ways = sizeof(TestType) == sizeof(float)
                                          ? std::vector<double>{0x1p-4}
                                          : std::vector<double>{0x1p-16, 0x1p-20, 0x1p-24};
@@ -495,7 +496,7 @@ TEMPLATE_TEST_CASE(
         for (const RenderOptions& options : packet_ways()) {
             CAPTURE(off, options.isa, options.traversal);
             const RayScene<TestType> rays(scene, options);
-            // From inside, where all of it is seen.
+            // From inside, where the whole wall is visible.
             const auto seen = look(rays, 400, {0, 0, 60}, 1, {0, 0, 85}, 120);
             int hits = 0;
             int reached[2] = {};
@@ -516,7 +517,7 @@ TEMPLATE_TEST_CASE(
 
 namespace {
 
-/// A lamp next to the rim of a body, and a point of the body's side.
+/// A lamp next to the rim of a body, and a point on the body's side.
 struct RimLamp {
     std::string body;
     std::array<double, 3> point, lamp;
@@ -544,11 +545,13 @@ void check_rim_lamp(const RimLamp& at, const RenderOptions& options)
 
 }  // namespace
 
-TEST_CASE("a lamp next to a body's rim lights what neither its side nor its cap is before", "[lit]")
+TEST_CASE("a lamp next to a body's rim lights what neither the body's side nor its cap occludes",
+          "[lit]")
 {
     const std::string tube =
         "matrix = (0.8, 0, 0.6, 0,  0, 1, 0, 0,  -0.6, 0, 0.8, 0)  z_range = (0, 1)";
-    // Inside the wall and just above its open end; outside it and just below the cap's plane.
+    // The first lamp is inside the wall and just above its open end; the second is outside and just
+    // below the cap's plane.
     const std::vector<RimLamp> single{
         {"cylinder { " + tube + " }",
          {-0.0492417067, 0.584281027, 1.28693008},
@@ -579,7 +582,7 @@ TEST_CASE("a lamp next to a body's rim lights what neither its side nor its cap 
     }
 }
 
-TEST_CASE("what casts no shadow is in no light's way", "[lit]")
+TEST_CASE("an object that casts no shadow occludes no light", "[lit]")
 {
     Scene scene = crowd(150);
     for (std::size_t i = 0; i < scene.objects.size(); i += 2)
@@ -606,7 +609,7 @@ TEST_CASE("what casts no shadow is in no light's way", "[lit]")
     }
 }
 
-TEST_CASE("lights reach where objects are now", "[lit]")
+TEST_CASE("lights reach moved objects where they are now", "[lit]")
 {
     Scene scene = crowd(150);
     scene.objects[1].casts_shadow = false;
@@ -628,7 +631,7 @@ TEST_CASE("lights reach where objects are now", "[lit]")
     }
 }
 
-TEST_CASE("several threads may ask about lights at once", "[lit]")
+TEST_CASE("several threads may query lights at once", "[lit]")
 {
     const tbb::global_control threads(tbb::global_control::max_allowed_parallelism, 3);
     Scene scene = crowd(300);
@@ -640,7 +643,7 @@ TEST_CASE("several threads may ask about lights at once", "[lit]")
     const Mask expected = lit(by_lists, seen.points());
     options.traversal = Traversal::tree;
     const RayScene<float> rays(scene, options);
-    // What the first calls prepare, and the light's own view in the midst of them.
+    // The first calls prepare data, and the light buffer is built between them.
     Mask mask(seen.count(), 7);
     tbb::task_arena(3).execute([&] {
         tbb::parallel_for(tbb::blocked_range<std::size_t>(0, seen.count(), 512),
@@ -656,7 +659,7 @@ TEST_CASE("several threads may ask about lights at once", "[lit]")
     CHECK(mask == expected);
 }
 
-TEST_CASE("lights that nothing can be in the way of are refused", "[lit]")
+TEST_CASE("lights that nothing can occlude are refused", "[lit]")
 {
     const Scene scene = crowd(3);
     const RenderOptions scalar{.kernel = Kernel::scalar};

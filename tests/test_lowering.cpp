@@ -16,11 +16,11 @@
 #include <algorithm>
 #include <cstring>
 
-// Large scenes are lowered in runs of objects, several at once.
+// Large scenes are lowered in chunks of objects, several chunks at once.
 namespace packtrace {
 namespace {
 
-/// More than are lowered at once, of every kind; `kind_of` says which.
+/// More objects than one chunk, of every kind; `kind_of` gives the kind.
 constexpr int object_count = 70'000;
 
 enum class Kind { sphere, plane, checkered, capped };
@@ -141,7 +141,7 @@ TEST_CASE("surfaces are numbered in the order of objects, whatever their kinds",
           lowered.material_index[static_cast<std::size_t>(spheres.back())].object);
 }
 
-TEST_CASE("what a scene lowers to does not depend on the number of threads", "[lowering]")
+TEST_CASE("a lowered scene does not depend on the number of threads", "[lowering]")
 {
     const Scene scene = many_objects();
     const LoweredScene one = lower_on(1, scene);
@@ -153,7 +153,7 @@ TEST_CASE("what a scene lowers to does not depend on the number of threads", "[l
     CHECK(surfaces_of(one.spheres) == surfaces_of(two.spheres));
 }
 
-TEST_CASE("of several objects without a surface the first is named", "[lowering]")
+TEST_CASE("of several objects without a surface the first is reported", "[lowering]")
 {
     Scene scene = many_objects();
     for (const std::size_t number : {69'000u, 30'000u, 29'000u, 20'000u}) {
@@ -162,20 +162,20 @@ TEST_CASE("of several objects without a surface the first is named", "[lowering]
     CHECK_THROWS_WITH(lower(scene), test::ContainsSubstring("'object 20000'"));
 }
 
-TEST_CASE("objects of one material share its record", "[lowering]")
+TEST_CASE("objects with one material share its record", "[lowering]")
 {
     const LoweredScene lowered = lower(generate_random_spheres({.count = 10'000}));
     CHECK(lowered.materials.size() == 1);
 }
 
-TEST_CASE("a sphere among many costs a hundred bytes at most", "[lowering][bulk]")
+TEST_CASE("a sphere among many takes a hundred bytes at most", "[lowering][bulk]")
 {
     constexpr int count = 50'000;
     for (const double radius : {0.001, 0.01})
         for (const Accuracy accuracy : {Accuracy::fast, Accuracy::exact}) {
             const RenderOptions options{.accuracy = accuracy};
             Scene scene = generate_random_spheres({.count = count, .radius = radius});
-            // Too few pixels for lights' own views of the spheres.
+            // Too few pixels for light buffers of the spheres.
             test::set_size(scene, 64, 64);
             const Renderer<float> renderer(scene, options);
             INFO("radius " << radius);
@@ -184,7 +184,7 @@ TEST_CASE("a sphere among many costs a hundred bytes at most", "[lowering][bulk]
         }
 }
 
-TEST_CASE("a light's own view of many spheres costs a few hundred bytes a sphere", "[lowering]")
+TEST_CASE("a light buffer of many spheres takes a few hundred bytes per sphere", "[lowering]")
 {
     constexpr int count = 50'000;
     for (const double radius : {0.001, 0.01}) {
@@ -199,7 +199,8 @@ TEST_CASE("a light's own view of many spheres costs a few hundred bytes a sphere
     }
 }
 
-/// A picture of `count` spheres and a plane, the later spheres where the first hundred are.
+/// A picture of `count` objects: 900 spheres, a plane, and spheres that coincide with the first
+/// hundred.
 template <class Real>
 Image<Real> picture_of(std::size_t count, const RenderOptions& options)
 {
@@ -214,7 +215,7 @@ Image<Real> picture_of(std::size_t count, const RenderOptions& options)
     return image;
 }
 
-TEMPLATE_TEST_CASE("many spheres look as few do, to the bit", "[lowering]", float, double)
+TEMPLATE_TEST_CASE("many spheres give the picture of few, bit for bit", "[lowering]", float, double)
 {
     for (const Accuracy accuracy : {Accuracy::fast, Accuracy::exact})
         for (const SelfHits self_hits : {SelfHits::note, SelfHits::exact}) {
@@ -226,33 +227,33 @@ TEMPLATE_TEST_CASE("many spheres look as few do, to the bit", "[lowering]", floa
         }
 }
 
-TEST_CASE("a large sphere is anchored where its surface passes near the origin for its size",
+TEST_CASE("a large sphere is anchored if its surface passes close to the origin for its size",
           "[lowering]")
 {
     Scene scene;
     const auto add = [&](const Vec3& center, double radius) {
         scene.objects.emplace_back().surface = Sphere{center, radius};
     };
-    add({0.0, -3000.0, 0.0}, 3000.0);  // through the origin
-    add({0.0, 4.0, 0.0}, 4.0);         // a ball that stands there
+    add({0.0, -3000.0, 0.0}, 3000.0);  // passes through the origin
+    add({0.0, 4.0, 0.0}, 4.0);         // a ball that touches the origin, too small to anchor
     add({0.0, -5001.0, 0.0}, 5000.0);
-    add({3.0, 0.0, 4.0}, 1e6);      // around the origin, which is off its middle
-    add({0.0, 0.0, 200.0}, 100.0);  // large, but as far off
-    add({0.0, 65.2, 0.0}, 64.2);    // a little more than 64 times as large as it is far off
-    add({0.0, 64.8, 0.0}, 63.8);    // a little less
+    add({3.0, 0.0, 4.0}, 1e6);      // contains the origin off its centre
+    add({0.0, 0.0, 200.0}, 100.0);  // large, but as far away
+    add({0.0, 65.2, 0.0}, 64.2);    // radius just above 64 times the distance from the origin
+    add({0.0, 64.8, 0.0}, 63.8);    // radius just below this
     add({0.0, 0.0, 0.0}, 5.0);      // its surface is a radius away
-    add({0.0, 4.1, 0.0}, 4.1);      // larger than a ball
+    add({0.0, 4.1, 0.0}, 4.1);      // just large enough
     const LoweredScene lowered = lower(scene);
     CHECK(surfaces_of(lowered.anchored_spheres) == std::vector<std::int32_t>{0, 2, 5, 8});
     CHECK(surfaces_of(lowered.spheres) == std::vector<std::int32_t>{1, 3, 4, 6, 7});
     for (const LoweredAnchoredSphere& sphere : lowered.anchored_spheres) {
-        // On the surface, as near the origin as that comes.
+        // The point of the surface closest to the origin.
         CHECK(glm::length(sphere.anchor - sphere.center) == Approx(sphere.radius));
         CHECK(glm::length(sphere.anchor) < sphere.radius / 64.0);
     }
 }
 
-TEST_CASE("a sphere that is turned and scaled is a sphere, and one that is stretched never",
+TEST_CASE("a sphere that is turned and scaled stays a sphere, but a stretched one does not",
           "[lowering]")
 {
     const Object ball = make_object(sphere({1, 2, 3}, 0.5));
@@ -266,7 +267,7 @@ TEST_CASE("a sphere that is turned and scaled is a sphere, and one that is stret
     CHECK(lowered.quadrics.size() == 1);
 }
 
-TEST_CASE("how little a sphere is stretched shows in its hits", "[lowering]")
+TEST_CASE("a tiny stretch of a sphere shows in its hits", "[lowering]")
 {
     Scene scene;
     scene.objects = {scale(make_object(ellipsoid()), {1, 1, 1 + 0x1p-41})};
@@ -275,9 +276,10 @@ TEST_CASE("how little a sphere is stretched shows in its hits", "[lowering]")
     CHECK(traced.closest_hit({.org = {0, -3, 0}, .dir = {0, 1, 0}}).t == 2);
 }
 
-TEST_CASE("one surface that is clipped at two places is no surface twice", "[lowering]")
+TEST_CASE("one surface clipped at two places does not count as a duplicate", "[lowering]")
 {
-    // One unit sphere, whose own space begins at its centre, or below it; clipped to another part.
+    // One unit sphere in two object spaces, with the origin at its centre or below it. Their clips
+    // keep different parts.
     Quadric around_center{.coefficients = {1, 1, 1, 0, 0, 0, 0, 0, 0, -1},
                           .z_range = ZRange{0.0, 0.5}};
     Quadric from_below = around_center;
@@ -291,7 +293,7 @@ TEST_CASE("one surface that is clipped at two places is no surface twice", "[low
     CHECK(lowered.quadrics.size() == 2);
 }
 
-/// Which objects of a scene are anchored spheres.
+/// The objects of a scene that are anchored spheres.
 std::vector<std::int32_t> anchored_objects(const Scene& scene)
 {
     const LoweredScene lowered = lower(scene);
@@ -301,7 +303,7 @@ std::vector<std::int32_t> anchored_objects(const Scene& scene)
     return objects;
 }
 
-TEST_CASE("whether a sphere is anchored depends on nothing else of its scene", "[lowering]")
+TEST_CASE("a sphere is anchored independently of the rest of its scene", "[lowering]")
 {
     Scene scene;
     const double radii[] = {3000.0, 1.0, 200.0, 0.5, 1e6};
@@ -323,7 +325,7 @@ TEST_CASE("whether a sphere is anchored depends on nothing else of its scene", "
     }
 }
 
-TEST_CASE("every child of a hierarchy's nodes names something that there is", "[lowering]")
+TEST_CASE("every child of a bvh node refers to an existing node or object", "[lowering]")
 {
     for (const bool polygons : {false, true})
         for (const bool spheres : {false, true}) {

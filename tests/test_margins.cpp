@@ -1,5 +1,5 @@
-// The margins of what is left out early and the bounds of what single precision decides, against
-// rays that are looked for near them; their proofs are in docs/numerics_derivations.md.
+// The margins of early culling and the error bounds of decisions in single precision, tested with
+// rays aimed near these limits. docs/numerics_derivations.md has the proofs.
 #include "catch.hpp"
 #include "closest_hits.hpp"
 #include "lab/stress/stress_subject.hpp"
@@ -15,11 +15,11 @@
 namespace packtrace::test {
 namespace {
 
-/// How many of a kernel's answers to aimed rays differ from the truth.
+/// The number of a kernel's answers to aimed rays that differ from the truth.
 struct WrongAnswers {
-    int object = 0;    ///< another hit or miss than the truth
-    int t = 0;         ///< more than a unit in the last place off where double is not
-    int occluded = 0;  ///< another answer to what is before the ray's end
+    int object = 0;    ///< a hit instead of a miss, or another object
+    int t = 0;         ///< more than a unit in the last place off where double decides
+    int occluded = 0;  ///< another answer to whether the ray is occluded before its end
     std::string examples;
 };
 
@@ -70,7 +70,7 @@ WrongAnswers wrong_answers(const AimedRays& aimed, const std::vector<AimedTruth>
     return wrong;
 }
 
-/// Exact mode against the truth, on every instruction set, in lists and hierarchies.
+/// Checks exact mode against the truth on every instruction set, by lists and by a bvh.
 void check_aimed(const AimedFamily& family, int scenes, int rays, std::uint64_t seed)
 {
     StressRandom random(seed);
@@ -98,11 +98,11 @@ void check_aimed(const AimedFamily& family, int scenes, int rays, std::uint64_t 
                 CHECK(wrong.occluded == 0);
             }
     }
-    // Rays are aimed so that double can tell nearly all.
+    // Rays are aimed such that double can decide nearly all of them.
     CHECK(decidable > scenes * rays * 9 / 10);
 }
 
-/// Small balls near the edges of tiles, where beams end.
+/// Small balls near the edges of tiles, where interval frusta end.
 Scene balls_at_tile_edges(unsigned seed)
 {
     StressRandom random(seed);
@@ -110,7 +110,7 @@ Scene balls_at_tile_edges(unsigned seed)
     scene.camera.position = random.box(seed % 2 == 0 ? 1.0 : 1000.0);
     const CameraBasis basis = camera_basis(scene.camera, scene.width, scene.height);
     for (int i = 0; i < 30; ++i) {
-        // A pixel at a tile's edge; the ball only just reaches its ray.
+        // A pixel at a tile's edge; its ray almost touches the ball, from inside or outside.
         const double x = 16.0 * (random.below(4) - 2) + (random.below(2) == 0 ? 0.0 : 15.0);
         const double y = random.between(-32.0, 32.0);
         const Vec3 dir = basis.forward + x * basis.right + std::floor(y) * basis.up;
@@ -138,7 +138,7 @@ TEST_CASE("exact mode hits what 113 bits say for hundreds of thousands of aimed 
         check_aimed(family, 100, family.name == "many spheres" ? 60 : 500, 1000);
 }
 
-TEST_CASE("a beam leaves out no ball that one of its rays meets", "[margins]")
+TEST_CASE("an interval frustum skips no ball that one of its rays hits", "[margins]")
 {
     for (const std::string& isa : supported_isas()) {
         int hits = 0;

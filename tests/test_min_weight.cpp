@@ -1,4 +1,4 @@
-// Scene::min_weight: which rays are not traced, and how far off a picture is without them.
+// Scene::min_weight: the rays that are not traced, and the error of a picture without them.
 #include "catch.hpp"
 #include "feature_scenes.hpp"
 #include "packet_scenes.hpp"
@@ -20,7 +20,7 @@
 namespace packtrace::test {
 namespace {
 
-/// Sums of a pixel are rounded otherwise where some of their terms are missing.
+/// A pixel's sum is rounded differently if some of its terms are missing.
 template <class Real>
 constexpr double rounding = sizeof(Real) == sizeof(float) ? 2e-5 : 1e-13;
 
@@ -45,7 +45,7 @@ RenderOptions scalar_options()
     return {.kernel = Kernel::scalar};
 }
 
-/// Every note's model, mirrors and glass of every kind, and light without the usual bounds.
+/// Every note's model, mirrors and glass of every kind, and light beyond the usual bounds.
 std::vector<NamedScene> bouncing_scenes()
 {
     std::vector<NamedScene> scenes = packet_scenes();
@@ -94,7 +94,7 @@ void check_bound(const NamedScene& named, const RenderOptions& options)
 
 }  // namespace
 
-TEST_CASE("no pixel is off by more than the bound of the rays that are not traced", "[min_weight]")
+TEST_CASE("no pixel's error exceeds the bound of the rays that are not traced", "[min_weight]")
 {
     for (const NamedScene& named : bouncing_scenes()) {
         check_bound<float>(named, {});
@@ -113,7 +113,7 @@ TEST_CASE("the bound holds where a pixel has several samples", "[min_weight]")
     }
 }
 
-TEST_CASE("a single cut ray that brings all the light there is attains the bound", "[min_weight]")
+TEST_CASE("a single cut ray that carries all of the light attains the bound", "[min_weight]")
 {
     const Scene scene = parse(
         "image_size = 9 x 9\nillumination = general\nmax_depth = 2\n"
@@ -126,7 +126,7 @@ TEST_CASE("a single cut ray that brings all the light there is attains the bound
         CHECK(picture.cut.bound == Approx(0.008 * 0.75).epsilon(1e-4));
         const double difference = largest_difference(picture.image, render<double>(scene, options));
         CHECK(difference == Approx(0.008 * 0.75).epsilon(1e-12));
-        // A weight just as large is traced.
+        // A ray whose weight equals min_weight is traced.
         CHECK(render_cut<double>(scene, 0.01, options).cut.rays == 0);
         CHECK(render_cut<float>(scene, 0.01, options).cut.rays == 0);
     }
@@ -181,13 +181,13 @@ TEST_CASE("a weight that equals min_weight in decimals is traced in every precis
             check_same(render_cut<double>(scene, weight).cut);
             check_same(render_cut<float>(scene, weight, scalar_options()).cut);
             check_same(render_cut<double>(scene, weight, scalar_options()).cut);
-            // One that is a thousandth less is not.
+            // A ray whose weight is a thousandth less is not traced.
             CHECK(render_cut<double>(scene, weight * 1.001).cut.bound > 1.01 * expected.bound);
         }
     }
 }
 
-TEST_CASE("what is cut depends on no width, number of threads, hierarchy or kernel", "[min_weight]")
+TEST_CASE("cut rays do not depend on width, threads, traversal or kernel", "[min_weight]")
 {
     std::vector<std::string> isas = fused_isas();
     if (isas.empty())
@@ -216,14 +216,14 @@ TEST_CASE("what is cut depends on no width, number of threads, hierarchy or kern
     }
 }
 
-TEST_CASE("a weight of 0 cuts nothing, one of 1 all but whole rays", "[min_weight]")
+TEST_CASE("a min_weight of 0 cuts nothing, one of 1 all but rays of full weight", "[min_weight]")
 {
     const Scene scene = small_scene(PACKTRACE_SOURCE_DIR "/scenes/nested_glass.scene");
     const CutPicture<float> whole = render_cut<float>(scene, 0.0);
     CHECK(whole.cut.rays == 0);
     CHECK(whole.cut.bound == 0.0);
     CHECK((whole.image.rgb == render<float>(scene).rgb));
-    // In glass rays weigh 0.97 at most.
+    // Rays in glass have weights of at most 0.97.
     const CutPicture<float> none = render_cut<float>(scene, 1.0);
     Scene matt = scene;
     matt.max_depth = 0;
@@ -244,7 +244,7 @@ TEST_CASE("cutting at 0.002 leaves little of the rays in nested glass", "[min_we
     CHECK(heavy.cut.bound < 0.5);
 }
 
-TEST_CASE("light that grows as far as a scene may have it leaves a finite bound", "[min_weight]")
+TEST_CASE("the brightest light that a scene may have leaves a finite bound", "[min_weight]")
 {
     std::string text =
         "image_size = 9 x 9\nillumination = general\nmax_depth = 1\nshadows = transparent\n"
@@ -264,7 +264,7 @@ TEST_CASE("light that grows as far as a scene may have it leaves a finite bound"
     CHECK_THAT(error_of(text), ContainsSubstring("let colours grow"));
 }
 
-TEST_CASE("weights that are none are refused by every kernel", "[min_weight]")
+TEST_CASE("invalid weights are refused by every kernel", "[min_weight]")
 {
     Scene scene = four_spheres(8, 8);
     for (const double weight : {-0.1, 1.5, std::nan("")}) {
@@ -278,7 +278,7 @@ TEST_CASE("weights that are none are refused by every kernel", "[min_weight]")
           "x.scene:2:14: 'min_weight' is 1.5; use a number from 0 to 1");
 }
 
-TEST_CASE("render says how many rays it cut, and how far off that can be", "[min_weight]")
+TEST_CASE("render reports how many rays it cut, and the bound of the error", "[min_weight]")
 {
     const TempFolder folder;
     const std::string scene = PACKTRACE_SOURCE_DIR "/scenes/four_spheres.scene";
@@ -296,7 +296,7 @@ TEST_CASE("render says how many rays it cut, and how far off that can be", "[min
     CHECK(run({"--min-weight", "0.1", "-q"}, "quiet.pfm").empty());
     CHECK(read_text(folder / "quiet.pfm") == read_text(folder / "cut.pfm"));
 
-    // The printed bound is one that compare can be given.
+    // The printed bound can be passed to compare.
     const std::string before = "no pixel is off by more than ";
     REQUIRE(text.find(before) != std::string::npos);
     std::string bound = text.substr(text.find(before) + before.size());
@@ -313,7 +313,7 @@ TEST_CASE("render says how many rays it cut, and how far off that can be", "[min
                ContainsSubstring("where the same samples are taken"));
 }
 
-TEST_CASE("info says which weights are traced", "[min_weight]")
+TEST_CASE("info reports which weights are traced", "[min_weight]")
 {
     const TempFolder folder;
     write_text(folder / "s.scene", std::string("min_weight = 0.004\n") + any_sphere);

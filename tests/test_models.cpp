@@ -138,7 +138,8 @@ TEST_CASE("packets render note 000's sketch, its background and its visible ligh
     check_scene(scene);
 }
 
-TEST_CASE("packets render note 004's shader where its own space is the world's shape", "[models]")
+TEST_CASE("packets render note 004's shader where object space is similar to world space",
+          "[models]")
 {
     ShaderMaterial body{{0.2, 0.6, 0.5, 12.0}};
     Scene scene = base(Illumination::shader, shaded(body, {0.8, 0.2, 0.9}), shaded(body));
@@ -164,9 +165,9 @@ TEST_CASE("packets render the general equation to either depth limit", "[models]
     }
 }
 
-TEST_CASE("lights behind a surface make highlights in the notes that do not ask", "[models]")
+TEST_CASE("lights behind a surface make highlights in the notes that permit it", "[models]")
 {
-    // A floor seen at a low angle, and a light as low beneath it, opposite the eye.
+    // A floor seen at a low angle, and a light at the same low angle below it, opposite the eye.
     struct Model {
         Illumination illumination;
         Material material;

@@ -1,4 +1,5 @@
-// packtrace-mpi: the bytes of one process, whatever the number of ranks; ranks that die.
+// packtrace-mpi writes the bytes of one process for any number of ranks, and survives ranks that
+// die.
 #include "../bench/cluster/job_model.hpp"
 #include "catch.hpp"
 #include "fork_child.hpp"
@@ -31,10 +32,10 @@ using mpi::PieceWindow;
 
 #ifdef PACKTRACE_MPI
 
-/// mpirun of a program with so many ranks, more than there are processors.
+/// mpirun of a program with this number of ranks, which may exceed the number of processors.
 Words mpirun(int ranks, const std::string& program = PACKTRACE_MPI)
 {
-    // All ranks are on this machine. Open MPI 5 warns of networks that don't reach it.
+    // All ranks are on this machine. Open MPI 5 warns of networks that do not reach it.
     return {"env",
             "OMPI_MCA_btl_tcp_if_include=lo",
             PACKTRACE_MPIEXEC,
@@ -54,8 +55,8 @@ ProgramResult run_ranks(int ranks, const Words& words)
     return run_command(all);
 }
 
-/// Likewise, but ranks write standard output to a file. Where standard error follows, mpirun of
-/// Open MPI 5 prints the end of a piece of standard output there.
+/// As run_ranks(), but the ranks write standard output to a file. mpirun of Open MPI 5 prints the
+/// end of a piece of standard output on standard error if output there follows.
 ProgramResult run_ranks_to_file(int ranks, const Words& words)
 {
     const TempFolder folder;
@@ -68,7 +69,7 @@ ProgramResult run_ranks_to_file(int ranks, const Words& words)
     return result;
 }
 
-/// The lines of packtrace-mpi itself: mpirun adds some about exit codes.
+/// The lines of packtrace-mpi itself: mpirun adds lines about exit codes.
 Words own_lines(const std::string& text)
 {
     Words lines;
@@ -87,7 +88,8 @@ Words own_lines(const std::string& text)
 
 constexpr int ranks_tested[] = {1, 2, 3, 5};
 
-/// What the system says of a process behind its name, its state first; empty where there is none.
+/// The system's record of a process after its name, starting with its state; empty if there is no
+/// such process.
 std::string stat_of(const std::string& process)
 {
     try {
@@ -106,7 +108,7 @@ bool has_ended(pid_t process)
     return stat.empty() || stat.front() == 'Z';
 }
 
-/// Children of a process: the ranks of mpirun.
+/// Child processes: for mpirun, the ranks.
 std::vector<pid_t> children_of(pid_t parent)
 {
     std::vector<pid_t> children;
@@ -122,11 +124,11 @@ std::vector<pid_t> children_of(pid_t parent)
     return children;
 }
 
-/// Which of the ranks of a job, by process, is killed now; 0 for none yet.
+/// Chooses the rank of a job that is killed now, by its process; 0 for none yet.
 using ChooseVictim = std::function<pid_t(const std::vector<pid_t>& children)>;
 
-/// Starts a job and kills one of its ranks by SIGKILL. Returns its exit code, -1 where it ended
-/// before.
+/// Starts a job and kills one of its ranks by SIGKILL. Returns the job's exit code; -1 if the job
+/// ended before.
 int kill_rank(int ranks, const Words& words, const std::filesystem::path& errors,
               const ChooseVictim& choose)
 {
@@ -151,7 +153,7 @@ int kill_rank(int ranks, const Words& words, const std::filesystem::path& errors
         const auto now = std::chrono::steady_clock::now();
         if (!std::all_of(children.begin(), children.end(), has_ended))
             alive = now;
-        // Open MPI's launcher may lock itself out at its end (in PMIx_server_finalize).
+        // Open MPI's launcher may deadlock at its end (in PMIx_server_finalize).
         if (killed && now - alive > std::chrono::seconds(30))
             kill(job, SIGKILL);
         std::this_thread::sleep_for(std::chrono::milliseconds(2));
@@ -161,7 +163,7 @@ int kill_rank(int ranks, const Words& words, const std::filesystem::path& errors
     return WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
 }
 
-/// Kills the rank of a number once `when` holds.
+/// Kills the rank with this number once `when` holds.
 int kill_rank(int ranks, const Words& words, std::size_t victim,
               const std::filesystem::path& errors, const std::function<bool()>& when)
 {
@@ -170,7 +172,7 @@ int kill_rank(int ranks, const Words& words, std::size_t victim,
     });
 }
 
-/// Starts a job of one rank and sends it SIGTERM once `when` holds. Returns what it says.
+/// Starts a job of one rank and sends it SIGTERM once `when` holds. Returns its standard error.
 std::string errors_of_ended(const Words& words, const std::filesystem::path& errors,
                             const std::function<bool()>& when)
 {
@@ -181,7 +183,7 @@ std::string errors_of_ended(const Words& words, const std::filesystem::path& err
     return read_text(errors);
 }
 
-/// Takes out, at all depths, what differs from run to run: times and what follows from them.
+/// Removes values that differ from run to run, at all depths: times and values derived from times.
 void without_times(nlohmann::ordered_json& json)
 {
     if (json.is_object())
@@ -209,7 +211,7 @@ std::string mpi_scene(const std::string& name)
     return PACKTRACE_SOURCE_DIR "/scenes/" + name + ".scene";
 }
 
-/// Renders a high picture in bands that are kept.
+/// The words that render a tall picture with --resume, which keeps finished bands.
 Words render_high(const std::filesystem::path& picture)
 {
     return {"render", mpi_scene("mirror_room"),
@@ -223,7 +225,7 @@ Words render_high(const std::filesystem::path& picture)
 
 }  // namespace
 
-TEST_CASE("pieces leave in order and come only within the window", "[mpi]")
+TEST_CASE("pieces are written in order and handed out only within the window", "[mpi]")
 {
     PieceWindow window(10, 3);
     CHECK(window.admits(2));
@@ -251,7 +253,7 @@ TEST_CASE("pieces leave in order and come only within the window", "[mpi]")
           mpi::window_bytes / (std::size_t{12} << 20));
 }
 
-TEST_CASE("ranks of other versions or without FMA are told from others", "[mpi]")
+TEST_CASE("ranks of another version or without FMA are detected", "[mpi]")
 {
     const std::string one = mpi::RankSetup{"1.0", true}.text();
     const std::string plain = mpi::RankSetup{"1.0", false}.text();
@@ -265,7 +267,7 @@ TEST_CASE("ranks of other versions or without FMA are told from others", "[mpi]"
                ContainsSubstring("rank 1 is version 2.0 and rank 0 is version 1.0"));
 }
 
-TEST_CASE("ranks may have instruction sets and threads of their own, and no other arguments",
+TEST_CASE("ranks may have their own instruction sets and threads, but no other different arguments",
           "[mpi]")
 {
     const auto shared = [](const Words& words) { return mpi::shared_arguments(words); };
@@ -278,14 +280,14 @@ TEST_CASE("ranks may have instruction sets and threads of their own, and no othe
                ContainsSubstring("rank 2 and rank 0 have different arguments"));
 }
 
-TEST_CASE("ranks with other instruction sets share no study", "[mpi]")
+TEST_CASE("ranks with different instruction sets do not share a study", "[mpi]")
 {
     CHECK(mpi::why_rows_differ({"sse42, avx2", "sse42, avx2"}).empty());
     CHECK_THAT(mpi::why_rows_differ({"sse42, avx2", "sse42, avx2", "sse42"}),
                ContainsSubstring("rank 2 runs sse42 and rank 0 runs sse42, avx2"));
 }
 
-TEST_CASE("messages hold values of all kinds", "[mpi]")
+TEST_CASE("messages carry values of all kinds", "[mpi]")
 {
     const std::vector<std::string> words{"a", "", "three"};
     const std::vector<double> numbers{1.5, -0.0};
@@ -300,7 +302,7 @@ TEST_CASE("messages hold values of all kinds", "[mpi]")
     CHECK(read_words == words);
     CHECK(read_numbers == numbers);
     CHECK(read_flag);
-    // Every message that is cut short is told from a whole one.
+    // Every truncated message is detected.
     for (std::size_t size = 0; size < writer.bytes.size(); ++size) {
         const Bytes part(writer.bytes.begin(),
                          writer.bytes.begin() + static_cast<std::ptrdiff_t>(size));
@@ -314,7 +316,7 @@ TEST_CASE("the model of a job keeps all parts busy that it can", "[mpi]")
     const auto seconds = [](bench::ModelJob job) {
         const bench::ModelRun run = bench::JobModel(job).run();
         CHECK(run.working == Approx(job.pieces * job.work(0)).margin(1e-6));
-        // Nothing is faster than its busiest part.
+        // No job is faster than its busiest part.
         CHECK(run.seconds >= run.working / job.ranks - 1e-9);
         CHECK(run.seconds >= run.writer_busy - 1e-9);
         CHECK(run.seconds >= run.link_busy - 1e-9);
@@ -332,7 +334,7 @@ TEST_CASE("the model of a job keeps all parts busy that it can", "[mpi]")
         job.ranks = ranks;
         CHECK(seconds(job) == Approx(10.0 / ranks).margin(1e-2));
     }
-    // One part that all wait for: the writer, the link, the counter.
+    // One bottleneck that all ranks wait for: the writer, the link, the counter.
     bench::ModelJob slow = job;
     slow.write = 0.001;
     CHECK(seconds(slow) == Approx(1.0).margin(0.02));
@@ -342,7 +344,7 @@ TEST_CASE("the model of a job keeps all parts busy that it can", "[mpi]")
     slow = job;
     slow.counter = 0.002;
     CHECK(seconds(slow) == Approx(2.0).margin(0.3));
-    // Frames stay where they are made. No rank makes half a frame.
+    // Frames stay on the rank that renders them. No rank renders half a frame.
     job.piece_bytes = 0.0;
     job.ranks = 600;
     CHECK(seconds(job) == Approx(0.02).margin(1e-6));
@@ -352,7 +354,7 @@ TEST_CASE("the model of a job keeps all parts busy that it can", "[mpi]")
 
 #ifdef PACKTRACE_MPI
 
-TEST_CASE("a picture has the bytes of one process whatever the ranks", "[mpi]")
+TEST_CASE("a picture has the bytes of one process for any number of ranks", "[mpi]")
 {
     struct Case {
         std::string scene, ending;
@@ -391,9 +393,9 @@ TEST_CASE("a picture has the bytes of one process whatever the ranks", "[mpi]")
 
 TEST_CASE("every scene has the bytes of one process in either precision", "[mpi][slow]")
 {
-    // Bands are written by one function for each format, whatever the scene: each scene has one.
-    // And who renders a band does not depend on the scene or the precision: scenes take turns with
-    // the numbers of ranks, each with several ranks in one precision at least.
+    // One function per format writes bands, whatever the scene; so each scene is tested in one
+    // format. Which rank renders a band does not depend on scene or precision; so the scenes
+    // alternate between numbers of ranks, and each has several ranks in at least one precision.
     const std::string endings[] = {".png", ".pfm", ".hdr"};
     std::set<std::filesystem::path> scenes;
     for (const auto& entry : std::filesystem::directory_iterator(PACKTRACE_SOURCE_DIR "/scenes"))
@@ -428,7 +430,7 @@ TEST_CASE("every scene has the bytes of one process in either precision", "[mpi]
     CHECK(number > std::size(endings));
 }
 
-TEST_CASE("a job tells in JSON what each rank did", "[mpi]")
+TEST_CASE("a job reports in JSON what each rank did", "[mpi]")
 {
     const TempFolder folder;
     const ProgramResult result = run_ranks(
@@ -448,7 +450,7 @@ TEST_CASE("a job tells in JSON what each rank did", "[mpi]")
     CHECK(pieces == 8);
 }
 
-TEST_CASE("a stress test has the rows of one process whatever the ranks", "[mpi]")
+TEST_CASE("a stress test has the rows of one process for any number of ranks", "[mpi]")
 {
     const Words families = first_families(6);
     Words words{"stress", "--json", "--rays", "48", "--threads", "1"};
@@ -472,7 +474,7 @@ TEST_CASE("a stress test has the rows of one process whatever the ranks", "[mpi]
     CHECK(run_ranks(2, {"stress", "--list"}).out == run_packtrace({"stress", "--list"}).out);
 }
 
-TEST_CASE("a report has the errors of one process whatever the ranks", "[mpi]")
+TEST_CASE("a report has the errors of one process for any number of ranks", "[mpi]")
 {
     const TempFolder folder;
     write_text(folder / "a.scene",
@@ -510,7 +512,7 @@ TEST_CASE("a report has the errors of one process whatever the ranks", "[mpi]")
         without_times(json);
         CHECK(json.dump() == expected.dump());
         CHECK(pictures_of(folder / name) == pictures_of(folder / "w"));
-        // The truths of a report that was made are there for the next.
+        // The next report finds the truths of an earlier report.
         Words again = words("again" + name);
         again[10] = folder / (name + "_cache");
         CHECK(run_ranks(ranks, again).exit_code == 0);
@@ -522,7 +524,7 @@ TEST_CASE("a report has the errors of one process whatever the ranks", "[mpi]")
     }
 }
 
-TEST_CASE("no rank of a node works while another one times", "[mpi]")
+TEST_CASE("no rank of a node works while another rank measures times", "[mpi]")
 {
     struct Stage {
         int rank = 0;
@@ -534,7 +536,7 @@ TEST_CASE("no rank of a node works while another one times", "[mpi]")
         const ProgramResult result = run_command(mpirun(ranks, PACKTRACE_QUIET_RANKS));
         REQUIRE(result.exit_code == 0);
         std::istringstream lines(result.out);
-        // Studies are timed by one rank a node.
+        // One rank per node measures the times of studies.
         int nodes = 0;
         lines >> nodes;
         CHECK(nodes == 1);
@@ -552,7 +554,7 @@ TEST_CASE("no rank of a node works while another one times", "[mpi]")
     }
 }
 
-TEST_CASE("frames are shared by ranks, and a second job renders the missing ones", "[mpi]")
+TEST_CASE("ranks share frames, and a second job renders the missing ones", "[mpi]")
 {
     const TempFolder folder;
     write_text(
@@ -577,7 +579,7 @@ TEST_CASE("frames are shared by ranks, and a second job renders the missing ones
         for (int frame = 0; frame < 7; ++frame)
             std::filesystem::remove(folder / ("m" + std::to_string(frame) + ".pfm"));
     }
-    // What is left out is said of all ranks' frames.
+    // The report of cut rays covers all ranks' frames.
     Words cut = words("m%d.pfm");
     cut.insert(cut.end(), {"--min-weight", "0.5"});
     const std::string said = run_packtrace(cut).err;
@@ -595,7 +597,7 @@ TEST_CASE("frames are shared by ranks, and a second job renders the missing ones
     CHECK_THAT(result.err, ContainsSubstring("m3.pfm: can't write"));
 }
 
-TEST_CASE("hits have the bytes of one process whatever the ranks", "[mpi]")
+TEST_CASE("hits have the bytes of one process for any number of ranks", "[mpi]")
 {
     const TempFolder folder;
     std::string rays = many_rays(12000) + "\n";
@@ -611,7 +613,7 @@ TEST_CASE("hits have the bytes of one process whatever the ranks", "[mpi]")
             CHECK((read_text(folder / "m.csv") == read_text(folder / "w.csv")));
         }
     }
-    // A header behind comments of more than a piece is no ray.
+    // A header after comments longer than a piece does not count as a ray.
     std::string comments;
     for (int i = 0; i < 4000; ++i)
         comments += "# a comment of some length\n";
@@ -622,7 +624,7 @@ TEST_CASE("hits have the bytes of one process whatever the ranks", "[mpi]")
     late[4] = folder / "m.csv";
     CHECK(run_ranks(2, late).exit_code == 0);
     CHECK((read_text(folder / "m.csv") == read_text(folder / "w.csv")));
-    // The first of two wrong lines is the one that is named.
+    // Of two wrong lines the first is reported.
     rays += "1,2,3,0,0,0\n1,2,3,0,0,four\n";
     write_text(folder / "rays.csv", "1,2,3,0,0,1\n" + rays.substr(rays.find('\n', 10) + 1));
     const Words words{"intersect", four_spheres_file, folder / "rays.csv", "-o", folder / "x.csv"};
@@ -635,7 +637,7 @@ TEST_CASE("hits have the bytes of one process whatever the ranks", "[mpi]")
     }
 }
 
-TEST_CASE("what a job can't do it says in one line, once", "[mpi]")
+TEST_CASE("a job reports what it can't do in one line, once", "[mpi]")
 {
     const TempFolder folder;
     struct Wrong {
@@ -680,9 +682,10 @@ TEST_CASE("what a job can't do it says in one line, once", "[mpi]")
         CHECK_FALSE(std::filesystem::exists(picture));
     }
     CHECK(run_ranks(2, {"--version"}).exit_code == 0);
-    // Ranks that are told to do different work, and one that is told what it does not know.
+    // Ranks with orders for different work, and one with an unknown option.
     for (const Words& other : {Words{"--spp", "4"}, Words{"--gama", "2"}}) {
-        // By their number, as mpirun of Open MPI 5.0.7 dies of a second program behind a colon.
+        // The script selects by rank number, because mpirun of Open MPI 5.0.7 crashes on a second
+        // program after a colon.
         std::string script = "[ \"$OMPI_COMM_WORLD_RANK\" = 0 ] || set -- \"$@\"";
         for (const std::string& word : other)
             script += " " + shell_quoted(word);
@@ -711,7 +714,7 @@ TEST_CASE("a job whose results do not fit on standard output ends with exit code
         {"report", four_spheres_file, "--size", "16x12", "--quick", "-q", "--repetitions", "1",
          "--max-error", "1", "-o", folder / "r"}};
     for (const Words& words : all) {
-        // A rank that mpirun starts writes into a pipe of mpirun.
+        // A rank that mpirun starts writes into a pipe to mpirun.
         std::string command = shell_quoted(PACKTRACE_MPI);
         for (const std::string& word : words)
             command += " " + shell_quoted(word);
@@ -743,7 +746,7 @@ TEST_CASE("a job's messages show control characters in names as they are written
     }
 }
 
-TEST_CASE("a rank that dies ends the job with a line, and --resume goes on", "[mpi]")
+TEST_CASE("a rank that dies ends the job with a line, and --resume continues it", "[mpi]")
 {
     const TempFolder folder;
     REQUIRE(run_packtrace(render_high(folder / "w.png")).exit_code == 0);
@@ -765,7 +768,7 @@ TEST_CASE("a rank that dies ends the job with a line, and --resume goes on", "[m
     }
 }
 
-TEST_CASE("a job of rays that is ended says in its own name how to go on", "[mpi]")
+TEST_CASE("an interrupted job of rays says in its own name how to continue", "[mpi]")
 {
     const TempFolder folder;
     std::string rays;
@@ -774,11 +777,11 @@ TEST_CASE("a job of rays that is ended says in its own name how to go on", "[mpi
     write_text(folder / "rays.csv", rays);
     const std::string hits = folder / "hits.csv";
     const Words words{"intersect", four_spheres_file, folder / "rays.csv", "-o", hits, "--resume"};
-    // Its journal has two lines before the first piece.
+    // The journal has two lines before the first piece.
     const std::string begun =
         errors_of_ended(words, folder / "err", [&] { return lines_of(hits + ".journal") >= 3; });
     CHECK_THAT(begun, ContainsSubstring("packtrace-mpi: interrupted; the same command goes on "));
-    // It waits for a scene that does not come.
+    // The job waits for a scene that does not arrive.
     REQUIRE(mkfifo((folder / "pipe").c_str(), 0600) == 0);
     Words waiting = words;
     waiting[1] = folder / "pipe";
@@ -792,13 +795,13 @@ TEST_CASE("a job of rays that is ended says in its own name how to go on", "[mpi
                                         "--resume was given"));
 }
 
-TEST_CASE("a job that mpirun ends says so and leaves no file, however long its tiles take", "[mpi]")
+TEST_CASE("a job ended by mpirun says so and leaves no file, however long its tiles take", "[mpi]")
 {
     const TempFolder folder;
     const Words words{"render",        mpi_scene("whitted"), "--size", "1000x2000", "--spp",
                       "1024",          "--threads",          "1",      "-q",        "-o",
                       folder / "m.png"};
-    // Rank 0 has the picture's temporary file, whose name has its process.
+    // Rank 0 has the picture's temporary file, whose name contains its process id.
     const auto first_process = [&]() -> pid_t {
         for (const std::string& name : folder.names())
             if (name.starts_with(".m.png."))
@@ -811,7 +814,8 @@ TEST_CASE("a job that mpirun ends says so and leaves no file, however long its t
                 const pid_t first = first_process();
                 if (first == 0)
                     return 0;
-                // Each has begun its first tile. The first to end by SIGTERM lets mpirun kill all.
+                // Each rank has begun its first tile. When the first ends by SIGTERM, mpirun kills
+                // all.
                 std::this_thread::sleep_for(std::chrono::milliseconds(300));
                 return first == children.back() ? children.front() : children.back();
             });

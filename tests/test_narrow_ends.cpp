@@ -1,5 +1,5 @@
-// Rays from a long cone's wall that run nearly along it, to its narrow open end. Rounding puts
-// their start off the wall by more than the narrow end is wide in the cone's equation.
+// Rays from a long cone's wall that run nearly along it, to its narrow open end. In terms of the
+// cone's equation, rounding moves their start off the wall by more than the narrow end's width.
 #include "catch.hpp"
 #include "packet_ways.hpp"
 #include "scenes.hpp"
@@ -27,13 +27,13 @@ std::string open_cone(double wide_end)
            ") } ";
 }
 
-/// By the bilinear form of the unit cone.
+/// The bilinear form of the unit cone.
 long double cone_product(const Place& a, const Place& b)
 {
     return a[0] * b[0] + a[1] * b[1] - a[2] * b[2];
 }
 
-/// The point of the unit cone next to another.
+/// The point of the unit cone close to p.
 Place next_on_cone(const Place& p)
 {
     const long double across = std::hypot(p[0], p[1]);
@@ -46,7 +46,7 @@ template <class Real>
 struct WallRay {
     std::array<Real, 3> point, dir;
     bool outside = false;
-    std::optional<long double> t;  ///< where it is to hit the wall again
+    std::optional<long double> t;  ///< the true t of its next hit with the wall
 
     [[nodiscard]] Place start() const
     {
@@ -54,8 +54,8 @@ struct WallRay {
     }
 };
 
-/// Where the way from a point of the cone hits the cone between its ends; t = 0 where that is for
-/// rounding to decide, or far from the narrow end.
+/// The hit of a line from a point of the cone with the cone between its ends. t = 0 if rounding
+/// decides, or if the hit is far from the narrow end.
 std::optional<long double> wall_crossing(const Place& start, const Place& way, double wide_end)
 {
     const long double bend = cone_product(way, way);
@@ -78,8 +78,8 @@ std::array<Real, 3> point_of_wall(SceneRandom& random, double wide_end)
             static_cast<Real>(z)};
 }
 
-/// From a point of the wall to a place in or below the narrow end; nothing where rounding decides,
-/// or the ray crosses the cone far from there.
+/// A ray from a point of the wall to a point in or below the narrow end. No value if rounding
+/// decides or the ray hits the cone far from there.
 template <class Real>
 std::optional<WallRay<Real>> ray_to_narrow_end(SceneRandom& random, double wide_end)
 {
@@ -96,7 +96,7 @@ std::optional<WallRay<Real>> ray_to_narrow_end(SceneRandom& random, double wide_
     const long double slope = cone_product(start, way);
     ray.outside = slope > 0;
     ray.t = wall_crossing(start, way, wide_end);
-    // No further from the wall on its way than rounding its start moves it.
+    // On its way the ray is no further from the wall than rounding moves its start.
     const bool along = std::abs(slope * slope / cone_product(way, way)) <
                        64 * std::numeric_limits<Real>::epsilon() * start[2] * start[2];
     return along || ray.t == 0.0L ? std::nullopt : std::optional(ray);
@@ -115,7 +115,7 @@ SurfaceHit<Real> hit_again(const RayScene<Real>& scene, const WallRay<Real>& ray
     return hit;
 }
 
-/// How many of the rays hit the wall again.
+/// The number of rays that hit the wall again.
 template <class Real>
 int check_narrow_ends(const RenderOptions& options, double wide_end)
 {
@@ -137,7 +137,8 @@ int check_narrow_ends(const RenderOptions& options, double wide_end)
     return hits;
 }
 
-/// From the point (300, 400, 500) of the cone to next to its apex, where the cone is cut.
+/// A ray from the point (300, 400, 500) of the cone to a point near its apex, where the cone is
+/// cut.
 struct ApexRay {
     std::array<double, 3> dir;
     double t;
@@ -145,7 +146,7 @@ struct ApexRay {
 
 constexpr Vec3 light{0.1875, 0.0, 0.125};
 
-/// Whether the light below the narrow end reaches a point of the wall; nothing where rounding
+/// Whether the light below the narrow end reaches a point of the wall; no value if rounding
 /// decides.
 template <class Real>
 std::optional<bool> reached(const std::array<Real, 3>& point, double wide_end)
@@ -158,7 +159,7 @@ std::optional<bool> reached(const std::array<Real, 3>& point, double wide_end)
     return !t || *t > 1;
 }
 
-/// How many points the light reaches.
+/// The number of points that the light reaches.
 template <class Real>
 int check_lit(const RenderOptions& options, double wide_end)
 {
@@ -183,8 +184,7 @@ int check_lit(const RenderOptions& options, double wide_end)
 
 }  // namespace
 
-TEST_CASE("rays along a long cone's wall hit it again in front of its narrow end alone",
-          "[narrow_ends]")
+TEST_CASE("rays along a long cone's wall hit it again only before its narrow end", "[narrow_ends]")
 {
     for (const RenderOptions& options : packet_ways())
         for (const double wide_end : {10.0, 100.0, 1000.0, 10000.0}) {
@@ -193,7 +193,7 @@ TEST_CASE("rays along a long cone's wall hit it again in front of its narrow end
         }
 }
 
-TEST_CASE("a ray that passes a cone's apex by next to nothing is placed as exactly as others",
+TEST_CASE("a ray that barely passes a cone's apex is placed as exactly as other rays",
           "[narrow_ends]")
 {
     const ApexRay rays[] = {
@@ -214,7 +214,8 @@ TEST_CASE("a ray that passes a cone's apex by next to nothing is placed as exact
     }
 }
 
-TEST_CASE("a lamp below a long cone's narrow end reaches what is before it", "[narrow_ends]")
+TEST_CASE("a lamp below a long cone's narrow end reaches points that the wall does not occlude",
+          "[narrow_ends]")
 {
     for (const RenderOptions& options : packet_ways())
         for (const double wide_end : {10.0, 100.0, 1000.0}) {

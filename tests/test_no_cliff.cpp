@@ -1,5 +1,5 @@
-// What rays of the caller's own hit hangs on the objects in their way alone: not on where the
-// camera and the lights are, nor on what else is in the scene.
+// The hits of a caller's rays depend only on the objects near the rays. They do not depend on
+// camera and lights, nor on other objects of the scene.
 #include "catch.hpp"
 #include "lab/stress/placed_quadric.hpp"
 #include "lab/stress/stress_subject.hpp"
@@ -18,7 +18,7 @@ namespace {
 
 constexpr std::size_t ray_count = 2000;
 
-/// Spheres on a ground sphere, a plane, and quadrics of every shape.
+/// Spheres on a ground sphere, a plane, and quadrics of four kinds.
 Scene mixed_scene()
 {
     lab::StressRandom random(5);
@@ -37,7 +37,7 @@ Scene mixed_scene()
     return scene;
 }
 
-/// From around the origin, all of them forwards.
+/// Rays from around the origin, all of them forwards.
 template <class Real>
 RayColumns<Real> forward_rays()
 {
@@ -52,7 +52,7 @@ RayColumns<Real> forward_rays()
     return rays;
 }
 
-/// Everything that closest hits, any hits and all hits say, in order.
+/// All answers of closest hits, any hits and all hits, in order.
 template <class Real>
 std::vector<double> answers_of(const Scene& scene, const RenderOptions& options)
 {
@@ -90,7 +90,7 @@ struct Change {
     Scene scene;
 };
 
-/// Behind all rays and above them.
+/// Adds objects behind all rays and above them.
 void add_objects_elsewhere(Scene& scene, int count)
 {
     lab::StressRandom random(3);
@@ -99,7 +99,7 @@ void add_objects_elsewhere(Scene& scene, int count)
             lab::sphere_object(random.box(100.0) + Vec3(0, 250, -250), random.power(0.01, 1.0)));
 }
 
-/// The scene after changes that are no business of its rays.
+/// Changes of a scene that must not change its rays' hits.
 std::vector<Change> changes()
 {
     std::vector<Change> all;
@@ -127,7 +127,7 @@ void check_no_cliff(const RenderOptions& options)
     }
 }
 
-/// A floor, what stands on it, and one light `distance` away.
+/// A floor, what stands on it, and one light at this distance.
 Scene lit_from(double distance, const std::string& more = "")
 {
     Scene scene = parse_scene(more + R"(
@@ -154,8 +154,8 @@ Scene lit_from(double distance, const std::string& more = "")
     return scene;
 }
 
-/// Pixels that are off by more than 2 / 255, of which a shadow's edge in a picture so small has
-/// none or some.
+/// The number of pixels that are off by more than 2 / 255. In a picture this small, a shadow's edge
+/// differs in few pixels.
 int pixels_off(const Image<float>& image, const Image<double>& truth)
 {
     int off = 0;
@@ -168,7 +168,7 @@ int pixels_off(const Image<float>& image, const Image<double>& truth)
     return off;
 }
 
-/// Packets of floats, in every way, against the scalar reference in double.
+/// Compares packets of floats, in every way, with the scalar reference in double.
 void check_like_scalar(const Scene& scene, int most_off)
 {
     const Image<double> truth = render_scalar<double>(scene);
@@ -180,7 +180,7 @@ void check_like_scalar(const Scene& scene, int most_off)
 
 }  // namespace
 
-TEST_CASE("shadows stay where they are however far a light is", "[no_cliff]")
+TEST_CASE("shadows do not move with the distance of a light", "[no_cliff]")
 {
     for (const double distance : {10.0, 1e4, 1e6, 1e7, 1e8, 5e8}) {
         const Scene scene = lit_from(distance);
@@ -201,7 +201,7 @@ TEST_CASE("shadows stay where they are however far a light is", "[no_cliff]")
     }
 }
 
-TEST_CASE("a far light's shadows stay where a quadric has no bounds", "[no_cliff]")
+TEST_CASE("a far light's shadows do not move if a quadric has no bounds", "[no_cliff]")
 {
     const std::string endless[] = {"saddle { translate = (0, 0, -30)  scale = (1, 1, 0.2) }",
                                    "cylinder { scale = 0.2  rotate = (1, 0, 0, 90)  "
@@ -213,7 +213,7 @@ TEST_CASE("a far light's shadows stay where a quadric has no bounds", "[no_cliff
         }
 }
 
-TEST_CASE("a far light's shadows stay where small bodies lie on a large ball", "[no_cliff]")
+TEST_CASE("a far light's shadows do not move if small bodies lie on a large ball", "[no_cliff]")
 {
     const Scene scene = parse_scene(R"(image_size = 400 x 400  illumination = whitted
         camera { position = (0.00015, 0.00054, -0.00038)  look_at = (0, 0, 0)  fov = 52.7 }
@@ -227,7 +227,7 @@ TEST_CASE("a far light's shadows stay where small bodies lie on a large ball", "
     check_like_scalar(scene, 4);
 }
 
-TEST_CASE("a far light's shadows stay beside a second large ball", "[no_cliff]")
+TEST_CASE("a far light's shadows do not move beside a second large ball", "[no_cliff]")
 {
     const Scene scene = parse_scene(R"(image_size = 300 x 200  illumination = whitted
         camera { position = (-3, 4, -6)  look_at = (-1, 0, -0.5)  fov = 40 }
@@ -255,7 +255,7 @@ TEST_CASE("a light near one body and far from another keeps the near one's shado
            cylinder { scale = 0.1  rotate = (1, 0, 0, 90)  translate = (0.123, 0.217, 1.0731)
                       diffuse = 1 }
            light { type = point  position = (0.323, 0.217, 0.0731)  intensity = 1 })",
-                                  // A lamp just below a ceiling, and a speck on the floor.
+                                  // A lamp just below a ceiling, and a tiny sphere on the floor.
                                   R"(image_size = 64 x 64  illumination = whitted
            camera { position = (0.3, 0.1, -3)  look_at = (0.2, -0.5, 0)  fov = 70 }
            plane { point = (0, -1, 0)  normal = (0, 1, 0)  diffuse = 1 }
@@ -268,7 +268,7 @@ TEST_CASE("a light near one body and far from another keeps the near one's shado
     }
 }
 
-TEST_CASE("camera, lights and objects elsewhere change no digit of a hit", "[no_cliff]")
+TEST_CASE("camera, lights and distant objects change no digit of a hit", "[no_cliff]")
 {
     for (const std::string& isa : supported_isas())
         for (const lab::StressMode& mode : lab::stress_modes) {
@@ -277,9 +277,8 @@ TEST_CASE("camera, lights and objects elsewhere change no digit of a hit", "[no_
         }
 }
 
-TEST_CASE(
-    "camera, lights and objects elsewhere change no digit in double, and of the scalar kernel",
-    "[no_cliff]")
+TEST_CASE("camera, lights and distant objects change no digit of a hit in double or scalar",
+          "[no_cliff]")
 {
     for (const std::string& isa : supported_isas()) {
         CAPTURE(isa);

@@ -1,4 +1,4 @@
-// Each allocation of a render fails once: the program ends with one line, or does without.
+// Each allocation of a render fails once: the program ends with one line, or works without it.
 #include "catch.hpp"
 #include "run_program.hpp"
 
@@ -9,10 +9,10 @@
 namespace packtrace::test {
 namespace {
 
-/// Longer than what a string holds without memory of its own.
+/// Too long for a string's small buffer, so that the string allocates.
 const std::string picture_name = "a_picture_of_four_spheres.pfm";
 
-/// Renders in a folder, with an environment variable that says which allocations fail.
+/// Renders in a folder, with an environment variable that selects the failing allocations.
 ProgramResult render_in(const TempFolder& folder, int threads, const std::string& at)
 {
     return run_command({"sh", "-c",
@@ -22,8 +22,8 @@ ProgramResult render_in(const TempFolder& folder, int threads, const std::string
                             picture_name + " --threads " + std::to_string(threads)});
 }
 
-/// Renders again and again with one allocation failing, the first, those `step` further on, up to
-/// the last; returns how many runs did fail.
+/// Renders repeatedly with one failing allocation: numbers `first`, `first + step` and so on up to
+/// `last`. Returns the number of runs that failed.
 long render_without(long first, long last, long step, const std::string& expected, int threads = 2)
 {
     const TempFolder folder;
@@ -37,7 +37,7 @@ long render_without(long first, long last, long step, const std::string& expecte
     for (long allocation = first, exit_code = 0; lines >> allocation >> exit_code; ++runs) {
         const std::string name = std::to_string(allocation);
         const std::string err = read_text(folder / (name + ".err"));
-        // Each run has a folder of its own.
+        // Each run has its own folder.
         const std::filesystem::path own = folder / name;
         CAPTURE(allocation, err);
         REQUIRE(allocation == first + runs * step);
@@ -48,14 +48,14 @@ long render_without(long first, long last, long step, const std::string& expecte
         ++failed;
         CHECK(exit_code == 1);
         CHECK(std::count(err.begin(), err.end(), '\n') == 1);
-        // No picture, whole or half, and nothing else.
+        // No picture, whole or partial, and no other file.
         CHECK(std::filesystem::is_empty(own));
     }
     CHECK(runs == (last - first) / step + 1);
     return failed;
 }
 
-/// How many allocations a whole render makes.
+/// The number of allocations of a complete render.
 long allocations_of_render(int threads)
 {
     const TempFolder folder;
@@ -81,16 +81,17 @@ TEST_CASE("a render that runs out of memory says so and leaves nothing", "[no_me
     CHECK(render_without(1, allocations_of_render(2), 151, whole_picture()) > 3);
 }
 
-// Where the picture is written, the program can't fail any more.
-TEST_CASE("none of a render's last allocations fails a whole picture", "[no_memory]")
+// Once the picture is written, the program can't fail any more.
+TEST_CASE("the last allocations of a render do not fail after the picture is written",
+          "[no_memory]")
 {
     const long all = allocations_of_render(1);
     REQUIRE(all > 100);
     CHECK(render_without(all - 60, all, 1, whole_picture(), 1) > 0);
 }
 
-// The library, used by a program that goes on after it has run out of memory.
-TEST_CASE("what runs out of memory gives back what it had taken", "[no_memory]")
+// The library in a program that continues after it has run out of memory.
+TEST_CASE("work that runs out of memory releases what it had allocated", "[no_memory]")
 {
     for (const std::string work : {"picture", "tree", "queries", "lights", "update"}) {
         const ProgramResult result = run_command({PACKTRACE_LEAKS, work});
@@ -101,7 +102,7 @@ TEST_CASE("what runs out of memory gives back what it had taken", "[no_memory]")
 
 TEST_CASE("each allocation of a render may fail", "[no_memory][slow]")
 {
-    // Two threads make now some more, now some less.
+    // With two threads the number of allocations varies.
     const long all = allocations_of_render(2) + 100;
     CHECK(render_without(1, all, 1, whole_picture()) > 1000);
 }

@@ -21,14 +21,14 @@ void check(const std::vector<std::string>& lines, const std::vector<Intensity>& 
 
 }  // namespace
 
-TEST_CASE("the sum is the note's table", "[onedim]")
+TEST_CASE("the sum is as in the note's table", "[onedim]")
 {
     CHECK((N + N == N && N + M == M && N + A == A));
     CHECK((M + N == M && M + M == A && M + A == A));
     CHECK((A + N == A && A + M == A && A + A == A));
 }
 
-TEST_CASE("the product is the note's table", "[onedim]")
+TEST_CASE("the product is as in the note's table", "[onedim]")
 {
     CHECK((N * N == N && N * M == N && N * A == N));
     CHECK((M * N == N && M * M == M && M * A == M));
@@ -40,7 +40,7 @@ TEST_CASE("empty space is dark", "[onedim]")
     check({""}, {N});
 }
 
-TEST_CASE("of one surface the eye sees the emission, if it faces the eye", "[onedim]")
+TEST_CASE("the eye sees the emission of a single surface that faces it", "[onedim]")
 {
     check({"T:AAN", "T:AAM", "T:NNA", "A:AAN", "A:AAM", "A:NNA"}, {N, M, A, N, N, N});
 }
@@ -50,7 +50,7 @@ TEST_CASE("a surface dims what shines through it", "[onedim]")
     check({"T:NAN T:NNM", "T:NMN T:NNA", "T:NNN T:NNA", "T:AAN T:NNA"}, {M, M, N, A});
 }
 
-TEST_CASE("two Mediums add up to All", "[onedim]")
+TEST_CASE("two values Medium add up to All", "[onedim]")
 {
     check({"T:NMM T:NNM", "T:NAM T:NNM"}, {A, A});
 }
@@ -68,7 +68,7 @@ TEST_CASE("light between two mirrors grows to the least solution", "[onedim]")
 
 TEST_CASE("mirrors without a light stay dark", "[onedim]")
 {
-    // L1 = R1 = All solves the equations too, but is not the darkest solution.
+    // L1 = R1 = All also solves the equations, but is not the least solution.
     check({"A:ANN T:ANN", "A:AAN T:AAN"}, {N, N});
 }
 
@@ -98,13 +98,13 @@ TEST_CASE("all systems of at most two surfaces give the tabulated answers", "[on
     test::check_all_solvers(systems, expected);
 }
 
-TEST_CASE("one system alone is solved as among others", "[onedim]")
+TEST_CASE("a system alone has the same solution as among others", "[onedim]")
 {
     CHECK((solve(test::systems_of({"A:ANM T:ANN"})[0]) == A));
     CHECK((solve(std::span<const Surface>{}) == N));
 }
 
-TEST_CASE("systems that end where there is no surface are refused", "[onedim]")
+TEST_CASE("systems that end without a surface are refused", "[onedim]")
 {
     onedim::Systems systems;
     systems.ends = {5};
@@ -114,7 +114,7 @@ TEST_CASE("systems that end where there is no surface are refused", "[onedim]")
     CHECK_THROWS_AS(onedim::solve(systems), std::invalid_argument);
 }
 
-TEST_CASE("no systems have no answers", "[onedim]")
+TEST_CASE("an empty list of systems has no answers", "[onedim]")
 {
     test::check_all_solvers({}, {});
 }

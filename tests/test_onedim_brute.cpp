@@ -14,7 +14,7 @@ namespace {
 
 using test::BruteForce;
 
-// Solves by brute force, and then by every solver at once.
+// Solves by brute force, and then by every solver.
 void check_systems(const Systems& systems)
 {
     std::vector<Intensity> expected;
@@ -30,7 +30,7 @@ void check_systems(const Systems& systems)
 
 }  // namespace
 
-TEST_CASE("brute force finds the tabulated darkest and brightest answers", "[onedim_brute]")
+TEST_CASE("brute force finds the tabulated least and greatest answers", "[onedim_brute]")
 {
     std::ifstream table(PACKTRACE_SOURCE_DIR "/tests/data/onedim/exhaustive_n0to2.tsv");
     int lines = 0;

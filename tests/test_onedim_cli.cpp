@@ -39,7 +39,7 @@ void write_systems(const std::filesystem::path& file, int count)
 
 }  // namespace
 
-TEST_CASE("every line is answered, in either notation, an empty one too", "[onedim_cli]")
+TEST_CASE("every line is answered, in either notation, including an empty line", "[onedim_cli]")
 {
     const ProgramResult result = answer(
         "T:NAM T:NNM\n"
@@ -81,7 +81,7 @@ TEST_CASE("every solver and instruction set answers the table of small systems",
                    expected));
 }
 
-TEST_CASE("a malformed line ends the run with its place", "[onedim_cli]")
+TEST_CASE("a malformed line ends the run and is named with its position", "[onedim_cli]")
 {
     const ProgramResult result = answer("TNNA\n# remark\n\n T:NXN\nTNNA\n");
     CHECK(result.exit_code == 1);

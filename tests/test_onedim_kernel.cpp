@@ -42,7 +42,7 @@ bool contains(const std::vector<Transfer>& functions, const Transfer& f)
     return std::find(functions.begin(), functions.end(), f) != functions.end();
 }
 
-// All functions a segment of any line can have: what empty space becomes under all surfaces.
+// All functions that a segment of any line can have: everything that surfaces make of empty space.
 std::vector<Transfer> reachable()
 {
     std::vector<Transfer> functions{Transfer{}};
@@ -60,7 +60,7 @@ std::uint64_t all_bits(bool set)
     return set ? ~std::uint64_t{0} : 0;
 }
 
-// The kernel's step in the last word of a register, the others being empty.
+// The kernel's step in the last word of a register whose other words are empty.
 Transfer kernel_step(const abi::OnedimTable& kernel, const Surface& surface, const Transfer& beyond)
 {
     const auto words = static_cast<std::size_t>(kernel.words);
@@ -114,7 +114,7 @@ TEST_CASE("seven of the ten monotone functions occur", "[onedim_kernel]")
     CHECK(reachable().size() == 7);
 }
 
-TEST_CASE("bit planes are the transpose of the bytes", "[onedim_kernel]")
+TEST_CASE("bit planes are the transposed bytes", "[onedim_kernel]")
 {
     for (const abi::KernelTable* kernel : kernels()) {
         INFO(kernel->isa);
@@ -148,7 +148,8 @@ TEST_CASE("the kernel steps over every surface as the scalar step does", "[onedi
     }
 }
 
-TEST_CASE("systems are ordered by length, equal ones as they came", "[onedim_kernel]")
+TEST_CASE("systems are sorted by length, and systems of equal length keep their order",
+          "[onedim_kernel]")
 {
     Systems systems;
     for (const std::size_t length : {20u, 3u, 0u, 24u, 8u, 17u})

@@ -63,7 +63,7 @@ TEST_CASE("white space does not matter, and an argument may stand in parentheses
           "T:MNA");
 }
 
-TEST_CASE("the compact notation is read with and without its ornaments", "[onedim_notation]")
+TEST_CASE("the compact notation is read with and without optional characters", "[onedim_notation]")
 {
     CHECK(compact("") == "");
     CHECK(compact(" \t\r") == "");
@@ -72,7 +72,7 @@ TEST_CASE("the compact notation is read with and without its ornaments", "[onedi
     CHECK(compact("TMANANNM") == "T:MAN A:NNM");
 }
 
-TEST_CASE("what is written is read again", "[onedim_notation]")
+TEST_CASE("written systems read back as the same systems", "[onedim_notation]")
 {
     std::mt19937 random(13);
     for (std::size_t length = 0; length < 40; ++length) {
@@ -93,7 +93,7 @@ TEST_CASE("a list may be nested a million deep", "[onedim_notation][bulk]")
     CHECK(systems.surfaces.size() == system.size());
 }
 
-TEST_CASE("errors in the compact notation name column and cure", "[onedim_notation]")
+TEST_CASE("errors in the compact notation name the column and a remedy", "[onedim_notation]")
 {
     check_error("T:MAX", 5, "expected N, M or A for the emission, found 'X'");
     check_error("T:MAN A:N", 10,
@@ -104,7 +104,7 @@ TEST_CASE("errors in the compact notation name column and cure", "[onedim_notati
     check_error(std::string("T:MAN\0", 6), 6, "expected the end of the line, found byte 0x00");
 }
 
-TEST_CASE("errors in the note's notation name column and cure", "[onedim_notation]")
+TEST_CASE("errors in the note's notation name the column and a remedy", "[onedim_notation]")
 {
     check_error("Inx", 1,
                 "expected Inl of one more surface or Inr () of the list's end, found 'I'");
@@ -122,7 +122,8 @@ TEST_CASE("errors in the note's notation name column and cure", "[onedim_notatio
                 "expected ',' between a surface and the rest of the list, found 'I'");
 }
 
-TEST_CASE("no text of the notations' letters makes the reader fail otherwise", "[onedim_notation]")
+TEST_CASE("no text of the notations' letters makes the reader fail in another way",
+          "[onedim_notation]")
 {
     std::mt19937 random(14);
     const std::vector<std::string> tokens{"Inl", "Inr", "(", ")", ",", " ", "I", "T", "N", "T:AMN"};

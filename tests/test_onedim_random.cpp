@@ -32,7 +32,8 @@ TEST_CASE("all solvers agree on a hundred thousand random systems", "[onedim_ran
 
 TEST_CASE("all solvers agree on any number of systems of any length", "[onedim_random]")
 {
-    // Around the sizes of a word, of a run of surfaces and of the groups of every register.
+    // Numbers close to the sizes of a word, of a run of surfaces and of the groups of every
+    // register.
     std::mt19937 random(9);
     for (const std::size_t count : {1u, 2u, 63u, 64u, 65u, 127u, 129u, 255u, 257u, 511u, 513u}) {
         Systems systems;

@@ -48,7 +48,7 @@ std::string of_profile(const std::function<void(ProfileOptions&)>& change)
 
 }  // namespace
 
-TEST_CASE("numbers of threads are from 1 to 1024, or 0 for all", "[option_ranges]")
+TEST_CASE("the number of threads is from 1 to 1024, or 0 for all", "[option_ranges]")
 {
     for (const Kernel kernel : {Kernel::packet, Kernel::scalar})
         for (const int threads : {-3, 1025, 100000}) {
@@ -87,7 +87,7 @@ TEST_CASE("values that an enumeration lacks are refused", "[option_ranges]")
             "traversal: 9; choose from 0 to 2");
 }
 
-TEST_CASE("what only packets have a choice of is refused by the scalar kernel", "[option_ranges]")
+TEST_CASE("the scalar kernel refuses options that only packets have", "[option_ranges]")
 {
     const auto refused = [](const auto& change, const std::string& choice) {
         RenderOptions options{.kernel = Kernel::scalar};
@@ -106,7 +106,7 @@ TEST_CASE("what only packets have a choice of is refused by the scalar kernel", 
     refused([](RenderOptions& options) { options.force_general = true; }, "force_general");
 }
 
-TEST_CASE("reports and profiles refuse what they can't measure by", "[option_ranges]")
+TEST_CASE("reports and profiles refuse settings that they can't measure with", "[option_ranges]")
 {
     for (const int repetitions : {0, -1, 1001}) {
         const std::string wanted =
@@ -127,8 +127,7 @@ TEST_CASE("reports and profiles refuse what they can't measure by", "[option_ran
           "threshold: nan; choose a finite number >= 0");
 }
 
-TEST_CASE("pictures are refused sides below 0, times that are not theirs, and odd thresholds",
-          "[option_ranges]")
+TEST_CASE("invalid sides of images, numbers of times and thresholds are refused", "[option_ranges]")
 {
     CHECK(refusal<std::invalid_argument>([] { (void)Image<float>(-1, 5); }) ==
           "image: -1 x 5 pixels; sides are 0 or above");

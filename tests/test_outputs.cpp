@@ -1,4 +1,4 @@
-// Where output goes: links, pipes, full disks, interrupted and killed programs.
+// Destinations of output: links, pipes, full disks, interrupted and killed programs.
 #include "catch.hpp"
 #include "core/atomic_file.hpp"
 #include "fork_child.hpp"
@@ -24,8 +24,8 @@ ProgramResult render_small(const std::filesystem::path& picture)
         {"render", four_spheres_file, "--size", "16x12", "-q", "-o", picture.string()});
 }
 
-/// Starts `packtrace intersect` with rays from a pipe that stays open and empty, so that it waits
-/// with its output begun.
+/// Starts `packtrace intersect` with rays from a pipe that stays open and empty. The program has
+/// begun its output and waits.
 class WaitingProgram {
 public:
     explicit WaitingProgram(const TempFolder& folder) : output_(folder / "hits.csv")
@@ -49,8 +49,8 @@ public:
     WaitingProgram(const WaitingProgram&) = delete;
     WaitingProgram& operator=(const WaitingProgram&) = delete;
 
-    /// Waits until the temporary file is there. Then sends `number`; the process has ended then,
-    /// but nobody has asked how.
+    /// Waits for the temporary file, then sends `number`. Returns when the process has ended but
+    /// has not been reaped.
     void send(int number, const TempFolder& folder) const
     {
         for (int i = 0; i < 6000 && temporaries(folder) == 0; ++i)
@@ -61,7 +61,7 @@ public:
         REQUIRE(waitid(P_PID, static_cast<id_t>(process_), &how, WEXITED | WNOWAIT) == 0);
     }
 
-    /// The same; returns what waitpid() says.
+    /// As send(), then reaps the process and returns waitpid()'s status.
     [[nodiscard]] int end_by(int number, const TempFolder& folder) const
     {
         send(number, folder);
@@ -91,7 +91,7 @@ private:
 
 }  // namespace
 
-TEST_CASE("output through a link replaces the file that the link leads to", "[outputs]")
+TEST_CASE("output through a link replaces the target of the link", "[outputs]")
 {
     const TempFolder folder;
     write_text(folder / "real.pfm", "before");
@@ -105,7 +105,7 @@ TEST_CASE("output through a link replaces the file that the link leads to", "[ou
     CHECK(read_text(folder / "real.pfm").starts_with("PF"));
 }
 
-TEST_CASE("a file that is replaced keeps its permissions", "[outputs]")
+TEST_CASE("a replaced file keeps its permissions", "[outputs]")
 {
     const TempFolder folder;
     const std::filesystem::path picture = folder / "a.pfm";
@@ -149,7 +149,7 @@ TEST_CASE("output into a pipe goes through the pipe", "[outputs]")
     CHECK(read_text(copy) == read_text(folder / "file.pfm"));
 }
 
-TEST_CASE("the longest file name is written, a longer one is refused", "[outputs]")
+TEST_CASE("the longest permitted file name is written, and a longer one is refused", "[outputs]")
 {
     const TempFolder folder;
     CHECK(render_small(folder / (std::string(251, 'a') + ".pfm")).exit_code == 0);
@@ -188,7 +188,7 @@ TEST_CASE("an interrupted program removes its unfinished file and ends by the si
     }
 }
 
-TEST_CASE("what a killed program left is removed by the next that writes the same file",
+TEST_CASE("the unfinished file of a killed program is removed by the next one with the same output",
           "[outputs]")
 {
     const TempFolder folder;
@@ -198,7 +198,7 @@ TEST_CASE("what a killed program left is removed by the next that writes the sam
         CHECK(WIFSIGNALED(status));
         CHECK(WaitingProgram::temporaries(folder) == 1);
     }
-    // A writer that lives keeps its file.
+    // A living writer keeps its file.
     AtomicFile living(folder / "hits.csv");
     CHECK(WaitingProgram::temporaries(folder) == 1);
     AtomicFile second(folder / "hits.csv");
@@ -208,7 +208,7 @@ TEST_CASE("what a killed program left is removed by the next that writes the sam
     CHECK(WaitingProgram::temporaries(folder) == 0);
 }
 
-TEST_CASE("what a killed program left is removed though its parent has not asked after it",
+TEST_CASE("the unfinished file of a killed program is removed even if its parent has not reaped it",
           "[outputs]")
 {
     const TempFolder folder;
@@ -221,7 +221,8 @@ TEST_CASE("what a killed program left is removed though its parent has not asked
     CHECK(WIFSIGNALED(program.status()));
 }
 
-TEST_CASE("what killed programs left of finished frames is removed by the next run", "[outputs]")
+TEST_CASE("unfinished files of killed programs beside finished frames are removed by the next run",
+          "[outputs]")
 {
     const TempFolder folder;
     const std::vector<std::string> words{"render",
@@ -235,7 +236,7 @@ TEST_CASE("what killed programs left of finished frames is removed by the next r
                                          (folder / "f%d.png").string()};
     REQUIRE(run_packtrace(words).exit_code == 0);
     const std::vector<std::string> frames = folder.names();
-    // No process has so large a number.
+    // No process has a number this large.
     write_text(folder / ".f1.png.4194305-0.tmp", "half a picture");
     const std::string living = ".f1.png." + std::to_string(getpid()) + "-0.tmp";
     write_text(folder / living, "of this process");
@@ -244,7 +245,7 @@ TEST_CASE("what killed programs left of finished frames is removed by the next r
     CHECK(folder.names() == frames);
 }
 
-TEST_CASE("names of files show in messages without their control characters", "[outputs]")
+TEST_CASE("messages show file names without control characters", "[outputs]")
 {
     const TempFolder folder;
     const std::string scene = (folder / "\x1b[31mred\n.scene").string();
@@ -265,7 +266,7 @@ TEST_CASE("names of files show in messages without their control characters", "[
     }
 }
 
-TEST_CASE("more threads than are of use are not started", "[outputs]")
+TEST_CASE("no more threads are started than are useful", "[outputs]")
 {
     const TempFolder folder;
     const ProgramResult result =

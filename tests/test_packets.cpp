@@ -7,7 +7,7 @@
 namespace packtrace::test {
 namespace {
 
-/// Note 001 in floats against the exact picture, with the issue's bounds.
+/// Checks note 001 in floats against the exact picture, with the issue's bounds.
 void check_float_error(int size)
 {
     const Scene scene = four_spheres(size, size);
@@ -53,24 +53,24 @@ TEST_CASE("packets of doubles give the double reference's picture of note 001 in
     }
 }
 
-TEST_CASE("packets of floats keep note 001's error bounds", "[packets]")
+TEST_CASE("packets of floats stay within note 001's error bounds", "[packets]")
 {
     // No canvas point of this size touches a sphere exactly, as (-0.4, 0.1) does.
     check_float_error(251);
 }
 
-TEST_CASE("packets of floats keep note 001's error bounds in full size", "[packets][slow]")
+TEST_CASE("packets of floats stay within note 001's error bounds in full size", "[packets][slow]")
 {
     check_float_error(1024);
 }
 
-TEST_CASE("packets of floats are no further from the truth than the scalar reference in floats",
+TEST_CASE("packets of floats are as close to the truth as the scalar reference in floats",
           "[packets]")
 {
     for (const NamedScene& named : packet_scenes()) {
         const Image<double> exact = render_scalar<double>(named.scene);
         const auto scalar = convert<double>(render_scalar<float>(named.scene));
-        // A pixel at a silhouette may go either way.
+        // Rounding may decide a pixel at a silhouette either way.
         const std::size_t bound = compare(scalar, exact).pixels_off + 3;
         for (const std::string& isa : supported_isas()) {
             CAPTURE(named.name, isa);
@@ -116,7 +116,7 @@ TEST_CASE("rays are counted by kind, the same for every width", "[packets]")
     }
 }
 
-TEST_CASE("no shadow rays without shadows, no mirrored ones at depth 0", "[packets]")
+TEST_CASE("without shadows there are no shadow rays, and at depth 0 no mirrored rays", "[packets]")
 {
     Scene scene = four_spheres(37, 21);
     CHECK(count_rays(scene, "auto").shadow > 0);

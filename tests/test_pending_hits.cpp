@@ -1,5 +1,5 @@
-// A caller's rays that run apart, of which many miss, get the t that each of them gets alone, bit
-// for bit: hits are refined in the company of others.
+// Incoherent rays of a caller, many of which miss, get the same t together as alone, bit for bit:
+// hits of different rays are refined together.
 #include "catch.hpp"
 #include "few_objects.hpp"
 #include "render/ray_columns.hpp"
@@ -14,7 +14,7 @@
 namespace packtrace::test {
 namespace {
 
-/// Most of them away from what the scene has in its middle; some with ends, some that are no rays.
+/// Rays of which most avoid the middle of the scene. Some end early, and some are NaN.
 RayColumns<float> scattered_rays(unsigned seed, std::size_t count)
 {
     SceneRandom random(seed);
@@ -32,7 +32,7 @@ RayColumns<float> scattered_rays(unsigned seed, std::size_t count)
     return rays;
 }
 
-/// Rays that leave what others hit, on either side, any way.
+/// Rays in any direction that leave the hits of other rays, on either side.
 RayColumns<float> leaving_rays(const RayScene<float>& queries, const RayColumns<float>& rays,
                                StartColumns<float>& starts)
 {
@@ -53,7 +53,7 @@ RayColumns<float> leaving_rays(const RayScene<float>& queries, const RayColumns<
     return leaving;
 }
 
-/// The number of rays that hit anything.
+/// The number of rays with a hit.
 std::size_t check_alone(const RayScene<float>& queries, const RayColumns<float>& rays,
                         const StartColumns<float>* starts = nullptr)
 {
@@ -80,12 +80,12 @@ std::size_t check_alone(const RayScene<float>& queries, const RayColumns<float>&
 
 }  // namespace
 
-TEST_CASE("rays that run apart get the t that each gets alone", "[pending_hits]")
+TEST_CASE("incoherent rays get the t that each gets alone", "[pending_hits]")
 {
     std::size_t found = 0;
     for (unsigned seed = 1; seed <= 40; ++seed) {
         const Scene scene = FewObjects(seed).scene;
-        // Counts that leave packets and chunks open at their end.
+        // Counts that do not fill the last packet and the last chunk.
         const RayColumns<float> rays = scattered_rays(seed, 200 + 37 * seed % 160);
         CAPTURE(seed);
         for (const std::string& isa : supported_isas()) {
@@ -101,7 +101,8 @@ TEST_CASE("rays that run apart get the t that each gets alone", "[pending_hits]"
     CHECK(found > 1000);
 }
 
-TEST_CASE("the same through a hierarchy, with other kinds beside its spheres", "[pending_hits]")
+TEST_CASE("incoherent rays get the t that each gets alone through a bvh of several kinds too",
+          "[pending_hits]")
 {
     Scene scene = generate_random_spheres({.count = 300, .radius = 0.4, .reflective = 0.0});
     std::size_t others = 0;
@@ -111,8 +112,8 @@ TEST_CASE("the same through a hierarchy, with other kinds beside its spheres", "
             others += !std::holds_alternative<Sphere>(object.surface);
         }
     REQUIRE(others > 1);
-    // Compilers choose the order in which a scene's random numbers are taken: of these rays about a
-    // thousand hit it either way.
+    // About a thousand of these rays hit the scene. The compiler chooses the order of the scene's
+    // random numbers, so the exact number depends on it.
     const RayColumns<float> rays = scattered_rays(4, 1500);
     for (const std::string& isa : supported_isas()) {
         const RenderOptions options{.isa = isa, .traversal = Traversal::tree};

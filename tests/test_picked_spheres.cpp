@@ -18,8 +18,8 @@
 #include <span>
 #include <vector>
 
-// Rays that run together are tested against the few spheres of a hierarchy that they may meet,
-// picked for all of them: with the answers of rays that go through it, and of lists.
+// Coherent rays are tested together against a small set of candidate spheres, collected from the
+// bvh. Their answers equal those of bvh traversal and of lists.
 namespace packtrace::test {
 namespace {
 
@@ -44,7 +44,7 @@ private:
     std::uniform_real_distribution<double> unit_{-1.0, 1.0};
 };
 
-/// Spheres of sizes from 0.01 to 0.6 around (0, 0, 6) over a ground.
+/// Spheres of radius 0.01 to 0.6 around (0, 0, 6) over a ground.
 Scene sparse_spheres(int count, unsigned seed, double reflective)
 {
     SparseRandom random(seed);
@@ -62,8 +62,8 @@ Scene sparse_spheres(int count, unsigned seed, double reflective)
 
 enum class Way { from_eye, to_light, from_light, parallel };
 
-/// Chunks of rays that run together, each within `spread` of one way. Every other chunk has rays
-/// that no bounds hold for, or that go backwards or nowhere.
+/// Chunks of coherent rays, each within `spread` of one direction. Every other chunk also has rays
+/// beyond the range of the bounds, backward rays and rays without a direction.
 template <class Real>
 RayColumns<Real> running_together(Way way, double spread, unsigned seed)
 {
@@ -126,7 +126,7 @@ struct Answers {
     std::vector<std::uint8_t> mask;
 };
 
-/// The answers for all rays, so many at a time.
+/// The answers for all rays, in calls of this many rays.
 template <class Real>
 Answers<Real> answers(const RayScene<Real>& scene, const RayColumns<Real>& rays,
                       std::size_t at_once)
@@ -143,7 +143,7 @@ Answers<Real> answers(const RayScene<Real>& scene, const RayColumns<Real>& rays,
     return found;
 }
 
-/// Misses have the ends of their rays, which may be NaN.
+/// For a miss, t is the end of the ray, which may be NaN.
 template <class Real>
 void check_same(const Answers<Real>& picked, const Answers<Real>& other)
 {
@@ -152,7 +152,7 @@ void check_same(const Answers<Real>& picked, const Answers<Real>& other)
     CHECK(different_bits(picked.mask, other.mask) == 0);
 }
 
-/// Alone, and in batches that are too small for anything to be picked.
+/// For calls with single rays and calls too small to collect candidates.
 constexpr std::size_t in_one_call = 1u << 20;
 constexpr std::size_t too_few_to_pick = 32;
 
@@ -174,7 +174,7 @@ void check_rays(const Scene& scene, Way way, double spread, unsigned seed)
 
 }  // namespace
 
-TEST_CASE("rays that run together have the answers of rays by themselves", "[picked_spheres]")
+TEST_CASE("coherent rays have the answers of rays by themselves", "[picked_spheres]")
 {
     unsigned seed = 0;
     for (const int count : {40, 300, 2000}) {
@@ -186,14 +186,14 @@ TEST_CASE("rays that run together have the answers of rays by themselves", "[pic
     check_rays<double>(sparse_spheres(300, 9, 0.0), Way::from_eye, 0.05, 9);
 }
 
-TEST_CASE("nothing beyond the rays' arrays is read where spheres are picked", "[picked_spheres]")
+TEST_CASE("collecting candidate spheres reads nothing beyond the rays' arrays", "[picked_spheres]")
 {
     const Scene scene = sparse_spheres(40, 3, 0.0);
     const RayColumns<float> rays = running_together<float>(Way::from_eye, 0.01, 3);
     for (const std::string& isa : supported_isas()) {
         const RayScene<float> by_tree(scene, {.isa = isa, .traversal = Traversal::tree});
         for (const std::size_t count : {65u, 67u, 100u, 255u}) {
-            // deque: what is in it is not moved.
+            // A deque does not move its elements.
             std::deque<PageEnd<float>> column;
             for (const std::vector<float>& values : rays.columns)
                 column.emplace_back(std::span(values).first(count));
@@ -213,7 +213,7 @@ TEST_CASE("nothing beyond the rays' arrays is read where spheres are picked", "[
     }
 }
 
-TEST_CASE("a ray with a NaN takes nothing from those beside it", "[picked_spheres]")
+TEST_CASE("a ray with a NaN does not affect the rays beside it", "[picked_spheres]")
 {
     Scene scene;
     for (int i = 0; i < 64; ++i)
@@ -238,12 +238,12 @@ TEST_CASE("a ray with a NaN takes nothing from those beside it", "[picked_sphere
     }
 }
 
-TEST_CASE("frames by picked spheres have the pictures of lists", "[picked_spheres]")
+TEST_CASE("frames with candidate spheres have the pictures of lists", "[picked_spheres]")
 {
     for (const int count : {30, 250, 1500})
         for (const double reflective : {0.0, 0.4}) {
             Scene scene = sparse_spheres(count, 21, reflective);
-            // Some cast no shadow, so that shadow rays have a hierarchy of their own.
+            // Some objects cast no shadow, so that shadow rays have their own bvh.
             if (count == 250)
                 for (std::size_t i = 0; i < scene.objects.size(); i += 3)
                     scene.objects[i].casts_shadow = false;
@@ -257,7 +257,7 @@ TEST_CASE("frames by picked spheres have the pictures of lists", "[picked_sphere
         }
 }
 
-TEST_CASE("small spheres far from the world's origin stay in the cones that they are in",
+TEST_CASE("small spheres far from the world's origin stay in the cones that contain them",
           "[picked_spheres]")
 {
     for (const double offset : {3e5, 4e6}) {

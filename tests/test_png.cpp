@@ -26,7 +26,7 @@ std::uint32_t number_at(const Bytes& bytes, std::size_t at)
            std::uint32_t{bytes[at + 2]} << 8 | bytes[at + 3];
 }
 
-// The chunks of a file, their checksums looked at.
+// The chunks of a file; checks their checksums.
 std::vector<Chunk> chunks_of(const Bytes& file)
 {
     std::vector<Chunk> chunks;
@@ -43,8 +43,8 @@ std::vector<Chunk> chunks_of(const Bytes& file)
     return chunks;
 }
 
-// What a zlib stream holds, its checksum looked at by libdeflate; empty when it is damaged or
-// has another length.
+// The contents of a zlib stream, decompressed and checked by libdeflate; empty if the stream is
+// damaged or has another length.
 Bytes inflated(const Bytes& stream, std::size_t length)
 {
     Bytes data(length);
@@ -55,7 +55,8 @@ Bytes inflated(const Bytes& stream, std::size_t length)
     return result == LIBDEFLATE_SUCCESS ? data : Bytes{};
 }
 
-// Smooth above, noise in the middle, flat below, so that a PNG has every kind of deflate block.
+// Smooth at the top, noise in the middle, flat at the bottom, so that a PNG has every kind of
+// deflate block.
 Image<float> mixed_picture(int width, int height)
 {
     Image<float> image(width, height);
@@ -91,7 +92,7 @@ TEST_CASE("a PNG's chunks hold the picture's rows in one zlib stream", "[png]")
     CHECK(chunks[1].type == "IDAT");
     CHECK(chunks[2].type == "IEND");
 
-    // Each row is led by its filter, 2, and has the differences from the row above.
+    // Each row starts with its filter, 2, and stores differences from the row above.
     Bytes rows;
     for (int y = 0; y < image.height; ++y) {
         rows.push_back(2);
@@ -133,13 +134,13 @@ TEST_CASE("a PNG holds its recipe, whole or row by row", "[png]")
     }
 }
 
-TEST_CASE("PNGs of other programs are read", "[png]")
+TEST_CASE("PNGs of other programs can be read", "[png]")
 {
-    // 3 x 2 grey pixels, in ways that are not written here.
+    // 3 x 2 grey pixels, in encodings that packtrace does not write.
     struct Sample {
         const char* what;
         const char* file;
-        std::vector<double> grey;  ///< of 255
+        std::vector<double> grey;  ///< values of 255
     };
     const std::vector<Sample> samples{
         {"grey of 1 bit",
@@ -189,7 +190,7 @@ TEST_CASE("a PNG that is damaged or too short for its pixels is refused", "[png]
     Bytes other = file;
     other[file.size() / 2] ^= 1;
     CHECK(error_of(other).starts_with("damaged PNG: "));
-    // A million by a million pixels, as the header has it, whose checksum is right.
+    // A header of a million by a million pixels with a correct checksum.
     Bytes huge = file;
     for (const std::size_t at : {std::size_t{16}, std::size_t{20}})
         for (std::size_t i = 0; i < 4; ++i)

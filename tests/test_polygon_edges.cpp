@@ -1,5 +1,5 @@
-// Rays next to edges that polygons share, whose corners are near or far away: each ray hits the
-// polygon that 113 bits find it in, and no other, by every kernel.
+// Rays next to edges that polygons share, with corners near or far away. With every kernel, each
+// ray hits exactly the polygon that 113 bits find.
 #include "catch.hpp"
 #include "core/quad.hpp"
 #include "lab/stress/stress_random.hpp"
@@ -27,17 +27,17 @@ using lab::StressRay;
 
 /// Convex polygons that cover a plane around the world's origin.
 struct Tiling {
-    std::vector<std::vector<Vec3>> polygons;  ///< by their corners
-    std::vector<std::array<Vec3, 2>> shared;  ///< edges of two polygons
+    std::vector<std::vector<Vec3>> polygons;  ///< lists of corners
+    std::vector<std::array<Vec3, 2>> shared;  ///< edges of two polygons each
 };
 
-/// A point of a plane that leans, to the rounding of its height.
+/// A point of a tilted plane, up to the rounding of its height.
 Vec3 on_leaning_plane(double x, double y)
 {
     return {x, y, 0.3 * x - 0.1 * y - 1.0};
 }
 
-/// Triangles around a corner near the origin, whose other corners are from `near` to `far` away.
+/// Triangles around a corner near the origin, with other corners `near` to `far` away.
 Tiling fan_of_triangles(StressRandom& random, double near, double far)
 {
     constexpr int count = 7;
@@ -57,7 +57,7 @@ Tiling fan_of_triangles(StressRandom& random, double near, double far)
     return tiling;
 }
 
-/// Four by four quadrilaterals, `far` wide, of which a corner is near the origin.
+/// Four by four quadrilaterals of width `far`, with a corner near the origin.
 Tiling grid_of_quadrilaterals(StressRandom& random, double, double far)
 {
     const auto corner = [&, x = random.between(-1, 1), y = random.between(-1, 1)](int i, int j) {
@@ -76,8 +76,8 @@ Tiling grid_of_quadrilaterals(StressRandom& random, double, double far)
     return tiling;
 }
 
-/// A ray from above the plane to a shared edge, or next to it by 1e-15 to 1e-6 of the way there, in
-/// `Real`.
+/// A ray from above the plane to a shared edge, or beside it by 1e-15 to 1e-6 of its distance, with
+/// the coordinates rounded to `Real`.
 template <class Real>
 StressRay ray_next_to_edge(StressRandom& random, const Tiling& tiling)
 {
@@ -94,7 +94,7 @@ StressRay ray_next_to_edge(StressRandom& random, const Tiling& tiling)
             std::numeric_limits<double>::infinity()};
 }
 
-/// Not so nearly along the plane that rounding may turn it the other way.
+/// Whether a ray runs down so steeply that rounding cannot turn it upwards.
 bool goes_down(const StressRay& ray)
 {
     return ray.dir.z - 0.3 * ray.dir.x + 0.1 * ray.dir.y < -1e-10 * glm::length(ray.dir);
@@ -104,7 +104,7 @@ struct QuadVector {
     Quad x, y, z;
 };
 
-/// 1 or -1 for the sign of (a x b)·d, 0 where 113 bits cannot tell.
+/// The sign of (a x b)·d as 1 or -1; 0 if 113 bits cannot decide.
 int side_of(const QuadVector& a, const QuadVector& b, const Vec3& d)
 {
     const Quad term[6] = {a.y * b.z * d.x,  -a.z * b.y * d.x, a.z * b.x * d.y,
@@ -120,7 +120,7 @@ int side_of(const QuadVector& a, const QuadVector& b, const Vec3& d)
     return sum > 0 ? 1 : -1;
 }
 
-/// The polygons that a ray may pass through: one, but where 113 bits cannot tell.
+/// The polygons that a ray may hit: exactly one, unless 113 bits cannot decide.
 std::set<std::int32_t> polygons_of(const Tiling& tiling, const StressRay& ray)
 {
     std::set<std::int32_t> result;
@@ -142,7 +142,7 @@ std::set<std::int32_t> polygons_of(const Tiling& tiling, const StressRay& ray)
     return result;
 }
 
-/// How rays fared.
+/// Counts of the rays' results.
 struct Fared {
     int wrong = 0;
     int none = 0;
@@ -205,12 +205,12 @@ void check_tiling(StressRandom& random, const Tiling& tiling, int count,
     }
 }
 
-/// Packets on every instruction set, by lists and by a hierarchy.
+/// Packets on every instruction set, by lists and by a bvh.
 template <class Real>
 std::vector<RenderOptions> exact_ways()
 {
     std::vector<RenderOptions> ways = packet_ways();
-    // The reference in single precision has its corners in that, too.
+    // In single precision the reference also rounds the corners.
     if (sizeof(Real) == sizeof(double))
         ways.push_back({.kernel = Kernel::scalar});
     return ways;
@@ -231,7 +231,7 @@ TEMPLATE_TEST_CASE("a ray next to an edge hits the right one of the polygons tha
             }
 }
 
-// A ray of whole numbers goes through an edge or a corner exactly.
+// A ray of whole numbers passes exactly through an edge or a corner.
 TEMPLATE_TEST_CASE("a ray through an edge or a corner hits one polygon, the same by every kernel",
                    "[polygon_edges]", float, double)
 {

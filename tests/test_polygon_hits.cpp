@@ -1,4 +1,4 @@
-// Where rays hit polygons, by the scalar reference, by packets and in proven bounds.
+// Hits of polygons by the scalar reference and by packets, and their proven bounds.
 #include "catch.hpp"
 #include "lab/truth/textbook.hpp"
 #include "lab/truth/wide_truth.hpp"
@@ -31,7 +31,7 @@ bool is_valid(const Scene& scene)
     }
 }
 
-/// Every other one where it is in its own space.
+/// A star with a random transform; every other one has no transform.
 Object placed_star(int number, PolygonRandom& random)
 {
     Object object = star();
@@ -40,7 +40,7 @@ Object placed_star(int number, PolygonRandom& random)
     return object;
 }
 
-/// Of a point in its plane.
+/// The distance of a point in the triangle's plane.
 double distance_to_triangle(const Vec3& point, const std::vector<Vec3>& corners)
 {
     const Vec3 normal = glm::cross(corners[1] - corners[0], corners[2] - corners[0]);
@@ -70,7 +70,7 @@ TEST_CASE("a ray through an edge or a corner of whole numbers hits one polygon",
                 }
 }
 
-TEST_CASE("a star with a hole is hit between its outline and its hole", "[polygon_hits]")
+TEST_CASE("a star is hit between its outline and its hole", "[polygon_hits]")
 {
     const reference::Bodies<double> bodies(polygon_scene({star()}));
     const auto hits = [&](double x, double y) {
@@ -80,11 +80,12 @@ TEST_CASE("a star with a hole is hit between its outline and its hole", "[polygo
     CHECK(hits(0.0, 0.6) == 1);
     CHECK(hits(0.0, 1.9) == 1);   // in a point
     CHECK(hits(0.0, -1.9) == 0);  // below a notch
-    CHECK(hits(1.0, 1.0) == 0);   // in a notch's gap
+    CHECK(hits(1.0, 1.0) == 0);   // in a notch
     CHECK(hits(3.0, 0.0) == 0);
 }
 
-TEST_CASE("a contour that overlaps itself is inside where it goes round once", "[polygon_hits]")
+TEST_CASE("the even-odd rule decides what is inside a contour that overlaps itself",
+          "[polygon_hits]")
 {
     std::vector<Vec3> pentagram;
     for (int i = 0; i < 5; ++i)
@@ -95,7 +96,7 @@ TEST_CASE("a contour that overlaps itself is inside where it goes round once", "
     CHECK(reference_hits(bodies, {0, 0.9, -1}, {0, 0, 1}).size() == 1);
 }
 
-TEST_CASE("a polygon's normal is its plane's under any affine map", "[polygon_hits]")
+TEST_CASE("a polygon has the normal of its plane under any affine map", "[polygon_hits]")
 {
     PolygonRandom random(21);
     for (int i = 0; i < 100; ++i) {
@@ -118,7 +119,7 @@ TEST_CASE("a polygon's normal is its plane's under any affine map", "[polygon_hi
     }
 }
 
-TEST_CASE("a ray that starts on a polygon never meets it again", "[polygon_hits]")
+TEST_CASE("a ray that starts on a polygon never hits it again", "[polygon_hits]")
 {
     const reference::Bodies<double> bodies(polygon_scene({star()}));
     for (const auto side : {reference::Side::outer, reference::Side::inner})
@@ -167,7 +168,7 @@ TEST_CASE("the reference hits polygons where 113 bits say", "[polygon_hits]")
     CHECK(sure > 6000);
 }
 
-TEST_CASE("bounds of a hit with a polygon hold the true t", "[polygon_hits]")
+TEST_CASE("bounds of a hit with a polygon contain the true t", "[polygon_hits]")
 {
     PolygonRandom random(51);
     const RenderOptions scalar{.kernel = Kernel::scalar};
@@ -198,7 +199,7 @@ TEST_CASE("bounds of a hit with a polygon hold the true t", "[polygon_hits]")
     CHECK(proven > 400);
 }
 
-TEST_CASE("slivers are hit where they are", "[polygon_hits]")
+TEST_CASE("slivers are hit exactly where they are", "[polygon_hits]")
 {
     PolygonRandom random(61);
     const RenderOptions scalar{.kernel = Kernel::scalar};
@@ -237,15 +238,14 @@ TEST_CASE("slivers are hit where they are", "[polygon_hits]")
         }
 }
 
-TEST_CASE("a ray along a polygon's plane meets it within its outline or not at all",
-          "[polygon_hits]")
+TEST_CASE("a ray along a polygon's plane hits it within its outline or misses it", "[polygon_hits]")
 {
     PolygonRandom random(67);
     std::vector<RenderOptions> ways = packet_ways();
     ways.push_back({.kernel = Kernel::scalar});
     int hits = 0;
     for (int i = 0; i < 400; ++i) {
-        // Whole numbers in z = 3x - y, which single precision holds exactly.
+        // Whole numbers on z = 3x - y, which single precision represents exactly.
         const auto in_plane = [&](double size) {
             const Vec3 any = random.box(size);
             const double x = std::round(any.x);
@@ -260,7 +260,7 @@ TEST_CASE("a ray along a polygon's plane meets it within its outline or not at a
             const RayScene<double> rays(scene, options);
             const RayScene<float> narrow(scene, options);
             for (int ray = 0; ray < 60; ++ray) {
-                // The plane is crossed a few directions on, or not at all.
+                // The ray crosses the plane after a few lengths of its direction, or never.
                 const Vec3 off(0, 0, std::round(random.between(-3, 3)));
                 const Vec3 turn(0, 0, std::round(random.between(-1, 1)));
                 const Vec3 org = in_plane(15);
@@ -288,12 +288,12 @@ TEST_CASE("a ray along a polygon's plane meets it within its outline or not at a
     CHECK(hits > 10);
 }
 
-TEST_CASE("a ray that starts in a polygon's plane does not meet it further on", "[polygon_hits]")
+TEST_CASE("a ray that starts in a polygon's plane does not hit it further on", "[polygon_hits]")
 {
     std::vector<RenderOptions> ways = packet_ways();
     ways.push_back({.kernel = Kernel::scalar});
     for (int axis = 0; axis < 3; ++axis) {
-        // A square in a plane across the axis, seen from within and from all sides.
+        // A square in a plane across the axis, with rays from inside the plane and from all sides.
         const auto at = [&](double height, double u, double v) {
             Vec3 point;
             point[axis] = height;
@@ -324,7 +324,7 @@ TEST_CASE("a ray that starts in a polygon's plane does not meet it further on", 
     }
 }
 
-TEST_CASE("rays that are no numbers hit no polygon, and infinite ones come back", "[polygon_hits]")
+TEST_CASE("rays with NaN hit no polygon, and infinite rays return", "[polygon_hits]")
 {
     PolygonRandom random(83);
     std::vector<RenderOptions> ways = packet_ways();

@@ -1,4 +1,4 @@
-// Bodies of polygons are closed: no ray slips between two that share an edge.
+// Bodies of polygons are closed: no ray slips through a shared edge.
 #include "catch.hpp"
 #include "lab/stress/stress_subject.hpp"
 #include "polygon_scenes.hpp"
@@ -24,7 +24,7 @@
 namespace packtrace::test {
 namespace {
 
-/// A corner of the cube, a point of an edge, or one of a face.
+/// A corner of the cube, a point on an edge, or a point on a face.
 Vec3 target(PolygonRandom& random, int ray)
 {
     Vec3 point = random.box(1.0);
@@ -33,7 +33,8 @@ Vec3 target(PolygonRandom& random, int ray)
     return point;
 }
 
-/// Rays from inside a cube at its faces, edges and corners that do not leave it just once there.
+/// The number of rays from inside a cube, aimed at its faces, edges and corners, that do not leave
+/// it exactly once there.
 template <class Real>
 int leaks_of_cube(int rays, unsigned seed, const Mat4& m)
 {
@@ -94,7 +95,8 @@ TEMPLATE_TEST_CASE("lines from outside hit a cube of polygons twice or not at al
     CHECK(met > 30'000);
 }
 
-TEST_CASE("a sphere of polygons is closed, and the nearer the finer it is", "[polygon_leaks]")
+TEST_CASE("a sphere of polygons has no holes, and is closer to a sphere the finer it is",
+          "[polygon_leaks]")
 {
     double last = 1.0;
     for (const int rings : {8, 16, 32}) {
@@ -138,7 +140,7 @@ TEST_CASE("a sphere of polygons is closed, and the nearer the finer it is", "[po
     }
 }
 
-/// Scenes of polygons, some with a hierarchy.
+/// Scenes of polygons, some with a bvh.
 std::vector<Scene> polygon_scenes()
 {
     Scene picture =
@@ -148,7 +150,7 @@ std::vector<Scene> polygon_scenes()
     return {picture};
 }
 
-TEST_CASE("packets of doubles draw polygons as the reference does", "[polygon_leaks]")
+TEST_CASE("packets of doubles render polygons as the reference does", "[polygon_leaks]")
 {
     for (Scene scene : polygon_scenes())
         for (const Traversal traversal : {Traversal::list, Traversal::tree})
@@ -189,7 +191,8 @@ Scene facets(int steps)
     return scene;
 }
 
-/// Rays from within aimed at corners, edges and elsewhere, each of which has to leave once.
+/// Traces rays from inside, aimed at corners, edges and elsewhere; each ray must leave exactly
+/// once.
 template <class Real>
 void check_no_leaks(const Scene& scene, const RenderOptions& options, int count,
                     PolygonRandom& random)
@@ -232,7 +235,8 @@ TEST_CASE("no ray slips between polygons that share an edge", "[polygon_leaks]")
                 }
 }
 
-// PACKTRACE_POLYGON_RAYS asks for more than the suite has time for, such as ten million.
+// PACKTRACE_POLYGON_RAYS sets a number of rays larger than the suite has time for, such as ten
+// million.
 TEST_CASE("many rays at edges of a hundred thousand polygons do not slip through",
           "[polygon_leaks][slow]")
 {

@@ -1,4 +1,4 @@
-// The highlights' power, x^n for x in [0, 1 + 1e-6] and n from 1 to 10000, against long double.
+// The power of highlights, x^n for x in [0, 1 + 1e-6] and n from 1 to 10000, against long double.
 #include "catch.hpp"
 #include "power_error.hpp"
 #include "same_bits.hpp"
@@ -18,7 +18,7 @@ constexpr double absolute_bound = static_cast<double>(std::numeric_limits<Real>:
 template <class Real>
 constexpr double smallest_normal = static_cast<double>(std::numeric_limits<Real>::min());
 
-/// Samples whose powers lie on both sides of the smallest normal number.
+/// Samples with powers on both sides of the smallest normal number.
 template <class Real>
 PowerSamples<Real> around_underflow()
 {
@@ -38,8 +38,8 @@ PowerSamples<Real> around_underflow()
     return samples;
 }
 
-/// How many powers are neither 0 nor normal, or on the wrong side by more than the error of
-/// the power there.
+/// The number of powers that are neither 0 nor normal, or on the wrong side of the smallest normal
+/// number by more than the error of the power there.
 template <class Real>
 int wrong_underflows(const PowerSamples<Real>& samples, const std::vector<Real>& y)
 {
@@ -73,8 +73,8 @@ TEMPLATE_TEST_CASE("highlight powers keep their bound in units of the last place
     }
 }
 
-TEMPLATE_TEST_CASE("small highlight powers are wrong by no more than large ones", "[power]", float,
-                   double)
+TEMPLATE_TEST_CASE("the error of small highlight powers is no larger than that of large ones",
+                   "[power]", float, double)
 {
     for (const ExponentDecade& decade : exponent_decades) {
         const auto samples = power_samples<TestType>(decade, smallest_normal<TestType>);

@@ -1,4 +1,4 @@
-// Where a frame's time goes.
+// How a frame's time is divided.
 #include "catch.hpp"
 #include "lab/harness/statistics.hpp"
 #include "lab/profile/profile_steps.hpp"
@@ -38,7 +38,7 @@ const ProfileWhatIf& row_of(const Profile& profile, const std::string& name)
     return profile.what_if.front();
 }
 
-/// As on an idle machine: all sums are their wholes, and nothing varies.
+/// The profile of an idle machine: all parts add up to their sums, and no time varies.
 Profile idle_profile()
 {
     Profile result;
@@ -63,20 +63,20 @@ std::string only_line(const Profile& profile)
 
 }  // namespace
 
-TEST_CASE("a profile tells what the first frame of a process pays", "[profile]")
+TEST_CASE("a profile shows the costs of a process's first frame", "[profile]")
 {
     const Profile result = small_profile();
     REQUIRE(result.first_frame.size() == 4);
     CHECK(result.first_frame[0].name == "threads started");
     for (const FirstFrameStep& step : result.first_frame)
         CHECK(step.seconds > 0.0);
-    // A picture of 3 MB that nobody has touched before.
+    // A picture of 3 MB that no process has touched before.
     const ProfileOptions once{.repetitions = 1};
     const Profile cold = profile<float>(read_text(four_spheres_file), four_spheres(512, 512), once);
     CHECK(cold.first_frame[2].page_faults > cold.first_frame[3].page_faults);
 }
 
-TEST_CASE("a profile's generations have all rays of the frame, each once", "[profile]")
+TEST_CASE("a profile's generations contain all rays of the frame, each once", "[profile]")
 {
     const Profile result = small_profile();
     const FrameCounts all = rays_of(four_spheres(128, 96));
@@ -98,7 +98,7 @@ TEST_CASE("a profile's generations have all rays of the frame, each once", "[pro
     CHECK(result.generations.front().rays.shadow == rays_of(flat).shadow);
 }
 
-TEST_CASE("a profile's stages follow each other within the whole", "[profile]")
+TEST_CASE("a profile's stages follow each other within the total time", "[profile]")
 {
     // Medians of several repetitions need not add up: each may come from another repetition.
     const ProfileOptions once{.repetitions = 1};
@@ -122,7 +122,7 @@ TEST_CASE("what-if rows are frames without the rays of what they lack", "[profil
     CHECK(row_of(result, "without shadows").rays.reflected == result.rays.reflected);
     CHECK(row_of(result, "without reflections and refractions").rays.reflected == 0);
     CHECK(row_of(result, "without lights but ambient ones").rays.shadow == 0);
-    // Highlights make a light wanted where it shines from behind.
+    // Because of highlights, a light that shines from behind also needs shadow rays.
     CHECK(row_of(result, "without highlights").rays.shadow <= result.rays.shadow);
     CHECK(row_of(result, "without highlights").rays.reflected == result.rays.reflected);
     const ProfileWhatIf once = row_of(result, "without anti-aliasing");
@@ -132,8 +132,7 @@ TEST_CASE("what-if rows are frames without the rays of what they lack", "[profil
         CHECK(row.seconds > 0.0);
 }
 
-TEST_CASE("lanes are filled by all rays of whole tiles, and by fewer after each mirror",
-          "[profile]")
+TEST_CASE("rays of whole tiles fill all lanes, and rays after each mirror fill fewer", "[profile]")
 {
     const auto filled = [](const Scene& scene, const std::string& isa) {
         std::vector<double> shares;
@@ -158,7 +157,7 @@ TEST_CASE("lanes are filled by all rays of whole tiles, and by fewer after each 
             CHECK(share > 0.0);
             CHECK(share <= 1.0);
         }
-        // A single pixel is one lane of a packet.
+        // A single pixel fills one lane of a packet.
         Scene wall;
         set_size(wall, 1, 1);
         add_plane(wall, {0, 0, 3}, {0, 0, -1}, scratch({1, 1, 1}, -1, 0));
@@ -175,7 +174,7 @@ TEST_CASE("lanes are filled by all rays of whole tiles, and by fewer after each 
     }
 }
 
-TEST_CASE("a profile of adaptive sampling has no generations, and all else", "[profile]")
+TEST_CASE("a profile of adaptive sampling has everything but generations", "[profile]")
 {
     const Scene scene = four_spheres(24, 24);
     const ProfileOptions options{.samples = 4, .adaptive = 0.1, .repetitions = 1};
@@ -186,11 +185,11 @@ TEST_CASE("a profile of adaptive sampling has no generations, and all else", "[p
     CHECK(result.rays.camera >= 24 * 24);
 }
 
-TEST_CASE("what a part takes is the median of pairs, and never negative", "[profile]")
+TEST_CASE("the time of a part is the median of pairs, and never negative", "[profile]")
 {
     CHECK(time_difference({10, 20, 30}, {9, 18, 31}).seconds == 1.0);
     CHECK(time_difference({10, 20, 30}, {9, 18, 31}).spread == 1.5);
-    // Busy spells that fell on the part alone.
+    // Busy spells during the part's measurements only.
     const TimeDifference busy = time_difference({1, 1, 1, 1}, {9, 0.5, 7, 8});
     CHECK(busy.seconds == 0.0);
     CHECK(busy.spread > 1.0);
@@ -218,7 +217,7 @@ TEST_CASE("the counter's rate is that of most readings, though some were late", 
     for (std::uint64_t i = 1; i <= 40; ++i)
         readings.push_back({20'000 * i, 2e-5 * static_cast<double>(i)});
     CHECK(seconds_of_tick(readings) == Approx(1e-9));
-    // Another program ran for longer than all that was measured, before the first was read.
+    // Another program ran for longer than the whole measurement before the first reading.
     readings.front().seconds += 0.01;
     CHECK(seconds_of_tick(readings) == Approx(1e-9));
     for (const std::size_t late : {3u, 11u, 18u, 25u, 36u, 39u})
@@ -227,7 +226,7 @@ TEST_CASE("the counter's rate is that of most readings, though some were late", 
     CHECK(seconds_of_tick({{10, 1.0}, {20, 2.0}}) == Approx(0.1));
 }
 
-TEST_CASE("a profile says what the machine was too busy for, and nothing on an idle one",
+TEST_CASE("a profile names what a busy machine prevented, and nothing on an idle machine",
           "[profile]")
 {
     CHECK(busy_lines(idle_profile()).empty());
@@ -249,7 +248,7 @@ TEST_CASE("a profile says what the machine was too busy for, and nothing on an i
     busy = idle_profile();
     busy.kernels.observed = 0.02;
     CHECK(only_line(busy) == "what the clock adds: frames with it take 61 % of those without");
-    // Nothing measured at all.
+    // No measurements at all.
     busy = idle_profile();
     busy.whole = 0.0;
     CHECK_FALSE(busy_lines(busy).empty());
@@ -275,7 +274,7 @@ TEST_CASE("traced tiles cover the picture once, and those of a thread do not ove
     CHECK(rays == rays_of(scene).total());
 }
 
-TEST_CASE("pixels that light hits cost more than those that see nothing", "[profile]")
+TEST_CASE("pixels that light reaches cost more than those that see nothing", "[profile]")
 {
     // Ground in the lower half of the picture.
     Scene scene;
@@ -286,12 +285,12 @@ TEST_CASE("pixels that light hits cost more than those that see nothing", "[prof
     const std::vector<double> costs = pixel_costs<float>(scene, {});
     REQUIRE(costs.size() == 32 * 32);
     CHECK(*std::min_element(costs.begin(), costs.end()) > 0.0);
-    // Medians, and work that differs a hundredfold: what interrupts some pixels can't hide it.
+    // Medians of costs that differ a hundredfold: interrupted pixels can't hide the difference.
     const auto half = costs.begin() + 16 * 32;
     CHECK(median_of({half, costs.end()}) > 2.0 * median_of({costs.begin(), half}));
 }
 
-TEST_CASE("the picture of costs has a legend below", "[profile]")
+TEST_CASE("the picture of costs has a legend below it", "[profile]")
 {
     std::vector<double> costs(64 * 8, 1e-8);
     costs[0] = 5e-8;
@@ -364,7 +363,7 @@ TEST_CASE("profile counts the rays that exact accuracy traces again", "[profile]
 {
     const TempFolder folder;
     const std::string scene = (folder / "twins.scene").string();
-    // Which of the two is nearer, single precision can't tell.
+    // Single precision can't decide which of the two is nearer.
     write_text(scene,
                "sphere {\ncenter = (0, 0, 5)\nradius = 1\n}\n"
                "sphere {\ncenter = (0, 0, 5.00000001)\nradius = 1\n}\n");

@@ -1,4 +1,4 @@
-// The ball that a quadric is culled by holds its whole surface.
+// The bounding ball of a quadric contains its whole surface.
 #include "catch.hpp"
 #include "geometry/quadric.hpp"
 #include "scene_text.hpp"
@@ -20,8 +20,8 @@ LoweredQuadric lowered(const std::string& text)
     return lowered(parse(text).objects.at(0));
 }
 
-/// The largest distance from the ball's centre of the rims and the waist of a surface of
-/// revolution x² + y² = r²(z), in radii of the ball.
+/// The largest distance from the ball's centre to the rims and the waist of a surface of revolution
+/// x² + y² = r²(z), in radii of the ball.
 template <class RadiusAt>
 double farthest(const std::string& text, double low, double high, const RadiusAt& radius_at)
 {
@@ -41,7 +41,7 @@ double farthest(const std::string& text, double low, double high, const RadiusAt
 
 }  // namespace
 
-TEST_CASE("the ball around a clipped cylinder is a number, however it is turned",
+TEST_CASE("the ball around a clipped cylinder is finite, however the cylinder is turned",
           "[quadric_bounds]")
 {
     for (const char* turn : {"", "rotate = (1, 0, 0, -90)", "rotate = (0, 1, 0, 152)"}) {
@@ -54,7 +54,7 @@ TEST_CASE("the ball around a clipped cylinder is a number, however it is turned"
     }
 }
 
-TEST_CASE("a surface without end has no ball", "[quadric_bounds]")
+TEST_CASE("an unbounded surface has no ball", "[quadric_bounds]")
 {
     for (const char* open : {"cylinder {}", "cone {}", "hyperboloid { scale = 2 }", "saddle {}"}) {
         CAPTURE(open);
@@ -62,7 +62,7 @@ TEST_CASE("a surface without end has no ball", "[quadric_bounds]")
     }
 }
 
-TEST_CASE("the ball around a clipped surface holds it under shears", "[quadric_bounds]")
+TEST_CASE("the ball around a clipped surface contains it under shears", "[quadric_bounds]")
 {
     const std::string shear = "matrix = (1, 0, 1, 0,  0, 1, 0, 0,  0, 0, 1, 0) }";
     const std::string strong = "matrix = (1, 0.5, 7, 0,  0, 1, -3, 0,  0, 0.2, 1, 0) }";

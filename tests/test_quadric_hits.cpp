@@ -1,4 +1,4 @@
-// Hits of quadrics, which single precision finds where it is sure and double where not.
+// Hits of quadrics: single precision decides where it is sure, double elsewhere.
 #include "catch.hpp"
 #include "packet_ways.hpp"
 #include "same_bits.hpp"
@@ -13,7 +13,7 @@
 namespace packtrace::test {
 namespace {
 
-/// Every kind, whole, open, clipped and capped, with roots on both sides of clips.
+/// Every kind of quadric: whole, open, clipped and capped, with roots on both sides of clips.
 Scene every_quadric()
 {
     return parse_scene(R"(
@@ -31,7 +31,7 @@ Scene every_quadric()
                        "quadrics", {});
 }
 
-/// From one place at the objects of every_quadric(), and next to them.
+/// Rays from one point towards the objects of every_quadric(), and beside them.
 std::vector<Ray<float>> rays_from(const Vec3& eye, SceneRandom& random, int count)
 {
     std::vector<Ray<float>> rays;
@@ -56,7 +56,8 @@ std::vector<SurfaceHit<float>> hits_of(const RayScene<float>& scene,
     return hits;
 }
 
-/// How many first hits are further than one last place from all that double finds of their object.
+/// The number of first hits that are more than one last place from all hits that double finds of
+/// their object.
 int not_among_all_hits(const RayScene<float>& scene, std::span<const Ray<float>> rays,
                        std::span<const SurfaceHit<float>> hits)
 {
@@ -77,7 +78,7 @@ int not_among_all_hits(const RayScene<float>& scene, std::span<const Ray<float>>
 
 }  // namespace
 
-TEST_CASE("Hits of quadrics have the same bits from one place, from many and alone",
+TEST_CASE("Hits of quadrics have the same bits for rays from one place, from many and alone",
           "[quadric_hits]")
 {
     const Scene scene = every_quadric();
@@ -123,7 +124,7 @@ TEST_CASE("Hits of quadrics have the same bits from one place, from many and alo
     CHECK(not_among_all_hits(traced, mixed, first) == 0);
 }
 
-TEMPLATE_TEST_CASE("a narrow waist far from its own space's origin keeps its width",
+TEMPLATE_TEST_CASE("a narrow waist far from the origin of object space keeps its width",
                    "[quadric_hits]", float, double)
 {
     // (x - 1024)² + y² - z² = 2^-20, whose waist is 2^-10 wide.
@@ -143,7 +144,7 @@ TEMPLATE_TEST_CASE("a narrow waist far from its own space's origin keeps its wid
     }
 }
 
-TEST_CASE("how little a parabolic cylinder bends shows in its hits", "[quadric_hits]")
+TEST_CASE("a tiny curvature of a parabolic cylinder shows in its hits", "[quadric_hits]")
 {
     // x² + x = 2^-41 z, at (2^-11, 0, 2^30 + 2^19): not the planes x = 0 and x = -1.
     const RayScene<double> sheet(parse_scene(
@@ -162,9 +163,10 @@ TEST_CASE("a small ball written as a quadric far from the origin is a ball", "[q
     CHECK(ball.closest_hit({.org = {1024, 0x1p-9, -5}, .dir = {0, 0, 1}}).object == -1);
 }
 
-TEST_CASE("a cone whose numbers are rounded has its apex", "[quadric_hits]")
+TEST_CASE("a cone with rounded numbers has its apex", "[quadric_hits]")
 {
-    // Not the tiny waist, or gap, that the roundings of 0.1, 0.2 and 0.3 and their squares make.
+    // The roundings of 0.1, 0.2, 0.3 and their squares must not turn the apex into a tiny waist or
+    // gap.
     const RayScene<double> cone(parse_scene(
         "quadric { coefficients = (1, 1, -1, 0, 0, 0, -0.2, -0.4, 0.6, -0.04) }", "cone", {}));
     const SurfaceHit<double> hit = cone.closest_hit({.org = {0.1, -5, 0.3}, .dir = {0, 1, 0}});
@@ -175,8 +177,8 @@ TEST_CASE("a cone whose numbers are rounded has its apex", "[quadric_hits]")
 TEMPLATE_TEST_CASE("rays along an open tube hit nothing beyond its ends", "[quadric_hits]", float,
                    double)
 {
-    // Each runs along the very wall, where rounding may tell a hit or a miss; the tube is between
-    // `low` and `high` of it.
+    // Each ray runs exactly along the wall, where rounding may find a hit or a miss; along the ray,
+    // the tube is between `low` and `high`.
     struct Along {
         std::string tube;
         Ray<TestType> ray;

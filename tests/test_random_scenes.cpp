@@ -18,8 +18,8 @@
 #include <string>
 #include <vector>
 
-// Random scenes built in code, valid ones and broken ones: the scalar kernel, packets and the
-// scene's text agree, or all of them refuse it with the same words.
+// Random scenes built in code, valid and broken. The scalar kernel, packets and the scene's text
+// agree on a scene, or all refuse it with the same words.
 namespace packtrace::test {
 namespace {
 
@@ -28,7 +28,7 @@ RenderOptions options_of(Kernel kernel, Accuracy accuracy = Accuracy::exact)
     return {.kernel = kernel, .accuracy = accuracy};
 }
 
-/// What each way to use a scene says of it.
+/// The message of each way to use a scene.
 std::map<std::string, std::string> refusals(const Scene& scene)
 {
     const RenderOptions packets = options_of(Kernel::packet);
@@ -91,8 +91,8 @@ std::vector<double> distances(const Scene& scene, Kernel kernel, const RayColumn
     return t;
 }
 
-/// Rays on which the kernels do not agree, which double can't always tell where surfaces cross,
-/// end or are only touched.
+/// The number of rays on which the kernels disagree. Double cannot always decide where surfaces
+/// intersect, end or are only touched.
 std::size_t disagreements(const std::vector<double>& a, const std::vector<double>& b)
 {
     std::size_t count = 0;
@@ -125,7 +125,7 @@ void check_pictures(const Scene& scene, const Scene& read)
         FAIL("a picture has NaN or infinity");
 }
 
-/// Returns the share of rays that the kernels do not agree on.
+/// Returns the share of rays on which the kernels disagree.
 double check_valid(unsigned seed)
 {
     RandomScene random(seed);
@@ -143,7 +143,7 @@ double check_valid(unsigned seed)
     const RayColumns<double> rays = scattered_rays(random, 64);
     const std::size_t apart = disagreements(distances(scene, Kernel::packet, rays),
                                             distances(scene, Kernel::scalar, rays));
-    // An object that one kernel does not see is missed by more.
+    // If one kernel did not see an object, more rays would differ.
     if (apart > 3)
         FAIL(apart << " of 64 rays hit something else:\n" << text);
     return static_cast<double>(apart) / 64.0;
@@ -163,7 +163,8 @@ void check_many(unsigned first, unsigned count)
 
 }  // namespace
 
-TEST_CASE("every way to break a scene is refused by all with the same words", "[random_scenes]")
+TEST_CASE("every way to break a scene is refused by all kernels with the same words",
+          "[random_scenes]")
 {
     unsigned seed = 1;
     for (const Break& way : all_breaks())
@@ -171,12 +172,13 @@ TEST_CASE("every way to break a scene is refused by all with the same words", "[
             check_broken(seed++, way);
 }
 
-TEST_CASE("scalar, packets and text agree on random scenes, or refuse alike", "[random_scenes]")
+TEST_CASE("scalar, packets and text agree on random scenes, or refuse them with the same words",
+          "[random_scenes]")
 {
     check_many(1000, 1000);
 }
 
-/// $PACKTRACE_RANDOM_SCENES is how many scenes, half of them broken.
+/// $PACKTRACE_RANDOM_SCENES sets the number of scenes, half of them broken.
 TEST_CASE("scalar, packets and text agree on a hundred thousand scenes", "[random_scenes][slow]")
 {
     const char* const wanted = std::getenv("PACKTRACE_RANDOM_SCENES");

@@ -11,7 +11,8 @@
 #include <stop_token>
 #include <vector>
 
-// Rays in structs, in spans and alone are answered as rays in arrays; long queries report and stop.
+// Rays in structs, in spans and alone get the answers of rays in arrays. Long queries report their
+// progress and can be stopped.
 namespace packtrace::test {
 namespace {
 
@@ -74,7 +75,7 @@ std::vector<SurfaceHit<Real>> closest_of_spans(const RayScene<Real>& scene,
     return found;
 }
 
-/// Somebody's own struct, with a ray and its hit in it.
+/// A caller's own struct that contains a ray and its hit.
 template <class Real>
 struct Photon {
     int id = 0;
@@ -120,7 +121,7 @@ TEST_CASE("rays in structs, with any stride, and alone hit what rays in arrays h
     check_structs<double>(scalar);
 }
 
-TEST_CASE("all questions can be asked of rays in structs and of one ray", "[ray_layouts]")
+TEST_CASE("all queries work for rays in structs and for one ray", "[ray_layouts]")
 {
     const RayScene<double> scene(ball_scene());
     const auto rays = scattered_rays<double>(600);
@@ -163,7 +164,7 @@ TEST_CASE("all questions can be asked of rays in structs and of one ray", "[ray_
     CHECK(wrong == 0);
 }
 
-TEST_CASE("arrays that are not as long as the rays are refused by name", "[ray_layouts]")
+TEST_CASE("arrays of another length than the rays are refused by name", "[ray_layouts]")
 {
     const RayScene<float> scene(ball_scene());
     const auto rays = scattered_rays<float>(5);
@@ -184,7 +185,7 @@ TEST_CASE("arrays that are not as long as the rays are refused by name", "[ray_l
                ContainsSubstring("normal_x has 3"));
 }
 
-TEST_CASE("arrays that are left out are refused by name, but for no rays", "[ray_layouts]")
+TEST_CASE("missing arrays are refused by name, unless there are no rays", "[ray_layouts]")
 {
     const RayScene<float> scene(ball_scene());
     const RayColumns<float> columns = columns_of(scattered_rays<float>(3));
@@ -245,7 +246,7 @@ TEST_CASE("arrays that are left out are refused by name, but for no rays", "[ray
     scene.lit(PointsView<float>{}, 1, nullptr);
 }
 
-TEST_CASE("a query reports how far it is, and stops where asked to", "[ray_layouts]")
+TEST_CASE("a query reports its progress, and stops when asked to", "[ray_layouts]")
 {
     const RayScene<float> scene(ball_scene());
     const auto rays = scattered_rays<float>(50'000);
@@ -289,7 +290,7 @@ TEST_CASE("a query reports how far it is, and stops where asked to", "[ray_layou
     }
 }
 
-TEST_CASE("rays are numbered through where a query of all hits is watched", "[ray_layouts]")
+TEST_CASE("rays are numbered consecutively in a query of all hits with progress", "[ray_layouts]")
 {
     const RayScene<float> scene(ball_scene());
     const auto rays = scattered_rays<float>(9'000);

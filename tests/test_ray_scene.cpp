@@ -23,7 +23,7 @@
 #include <random>
 #include <vector>
 
-// Rays of the caller's own: packets against the scalar reference, in double precision.
+// A caller's own rays: packets against the scalar reference, in double precision.
 namespace packtrace::test {
 namespace {
 
@@ -76,7 +76,7 @@ struct RayAnswers {
     bool operator==(const RayAnswers&) const = default;
 };
 
-/// What so many rays at a time meet.
+/// The hits of rays that are queried this many at a time.
 template <class Real>
 RayAnswers<Real> answers(const RayScene<Real>& scene, const RayColumns<Real>& rays,
                          std::size_t at_a_time)
@@ -126,7 +126,7 @@ TEST_CASE("packets find the closest hits of any rays, with outward normals", "[r
                     CHECK(found.t[i] == rays.columns[7][i]);
                     continue;
                 }
-                // A ground of radius 5000 costs packets the last digits of a place on it.
+                // On a ground of radius 5000 packets lose the last digits of a hit point.
                 CHECK(std::abs(found.t[i] - truth.t[i]) <= 1e-10 * truth.t[i] + 1e-12);
                 for (std::size_t axis = 0; axis < 3; ++axis)
                     CHECK(std::abs(found.normal[axis][i] - truth.normal[axis][i]) < 1e-9);
@@ -161,7 +161,7 @@ TEST_CASE("packets list all hits of a ray in order", "[ray_scene]")
 
 namespace {
 
-/// Rays from one place, whose first coordinate is 0 with either sign where `both_zeros`.
+/// Rays from one origin; with `both_zeros`, its first coordinate is 0 with either sign.
 template <class Real>
 RayColumns<Real> rays_from_one_place(int count, bool both_zeros)
 {
@@ -189,7 +189,7 @@ void check_together_as_alone(const RenderOptions& options)
         CAPTURE(options.isa, both_zeros);
         CHECK(std::count(alone.hits.object.begin(), alone.hits.object.end(), -1) > 100);
         CHECK(std::count(alone.mask.begin(), alone.mask.end(), 1) > 100);
-        // 64 and more that start at one place are prepared for together.
+        // 64 and more rays with one origin share precomputed values.
         for (const std::size_t at_a_time : {64U, 77U, 300U, 1237U})
             CHECK((answers(scene, rays, at_a_time) == alone));
     }
@@ -197,7 +197,7 @@ void check_together_as_alone(const RenderOptions& options)
 
 }  // namespace
 
-TEST_CASE("rays from one place have the same bits together as alone", "[ray_scene]")
+TEST_CASE("rays from one origin have the same bits together as alone", "[ray_scene]")
 {
     for (const std::string& isa : supported_isas()) {
         RenderOptions options = on(isa);
@@ -209,9 +209,9 @@ TEST_CASE("rays from one place have the same bits together as alone", "[ray_scen
     }
 }
 
-TEST_CASE("a ray from just above a sphere meets it at once, not on its way out", "[ray_scene]")
+TEST_CASE("a ray from just above a sphere hits it at once, not on its way out", "[ray_scene]")
 {
-    // Single precision puts its start inside: the two roots are -8e-7 and 0.33 by that.
+    // In single precision the start is inside: the roots are -8e-7 and 0.33.
     Scene scene{.objects = {sphere({-2.0317530632019043, 3.1829373836517334, -1.6853139400482178},
                                    1.5742509365081787)}};
     RayColumns<float> ray;
@@ -230,8 +230,8 @@ TEST_CASE("a ray from just above a sphere meets it at once, not on its way out",
 
 namespace {
 
-/// Segments from a point to places on spheres of a scene, of which some end before and some behind
-/// where they arrive, by as little as single precision can say.
+/// Segments from a point to points on spheres of a scene. Some end before their target and some
+/// behind it, by as little as single precision can represent.
 template <class Real>
 RayColumns<Real> segments_to_surfaces(const Scene& scene, int count)
 {
@@ -261,7 +261,7 @@ std::vector<std::uint8_t> blocked_segments(const Scene& scene, const RenderOptio
 
 }  // namespace
 
-TEST_CASE("segments that end at surfaces are blocked as in double precision", "[ray_scene]")
+TEST_CASE("segments that end at surfaces are occluded as in double precision", "[ray_scene]")
 {
     const Scene scene = generate_random_spheres({.count = 1500, .radius = 0.05});
     for (const std::string& isa : supported_isas()) {
@@ -275,8 +275,8 @@ TEST_CASE("segments that end at surfaces are blocked as in double precision", "[
     }
 }
 
-TEMPLATE_TEST_CASE("numbers of objects and surfaces that are not there are refused", "[ray_scene]",
-                   float, double)
+TEMPLATE_TEST_CASE("invalid numbers of objects and surfaces are refused", "[ray_scene]", float,
+                   double)
 {
     const RayScene<TestType> scene(parse_scene(R"(
         light { type = point  intensity = 1  position = (0, 9, 0) }
@@ -306,7 +306,7 @@ TEMPLATE_TEST_CASE("numbers of objects and surfaces that are not there are refus
         CHECK_THROWS_WITH(leave(surface), ContainsSubstring("surface " + std::to_string(surface)));
     for (const std::int32_t surface : {0, -1, no_start})
         CHECK_NOTHROW(leave(surface));
-    // A point from elsewhere.
+    // A point that is not on the object.
     const std::int32_t none[] = {-1, -7};
     CHECK_NOTHROW(scene.lit({{zero, zero, nine}, none, 2}, 0, mask));
 }
@@ -321,8 +321,8 @@ TEST_CASE("a ray with a NaN hits nothing", "[ray_scene]")
             CHECK(closest(on(isa.name), rays).hits.object == std::vector<std::int32_t>(8, -1));
 }
 
-TEMPLATE_TEST_CASE("a ray that ends at a NaN meets nothing, whatever is asked", "[ray_scene]",
-                   float, double)
+TEMPLATE_TEST_CASE("a ray that ends at a NaN hits nothing in any query", "[ray_scene]", float,
+                   double)
 {
     const Scene scene = parse_scene("sphere { center = (0, 0, 5)  radius = 1 }", "one", {});
     Ray<TestType> ray{{0, 0, 0}, {0, 0, 1}};
@@ -335,7 +335,7 @@ TEMPLATE_TEST_CASE("a ray that ends at a NaN meets nothing, whatever is asked", 
     }
 }
 
-TEMPLATE_TEST_CASE("no value behind those of the last ray is read or written", "[ray_scene]", float,
+TEMPLATE_TEST_CASE("no value after those of the last ray is read or written", "[ray_scene]", float,
                    double)
 {
     using Real = TestType;
@@ -346,7 +346,7 @@ TEMPLATE_TEST_CASE("no value behind those of the last ray is read or written", "
         const RayScene<Real> scene(lit, options);
         for (const std::size_t count : {std::size_t{1}, std::size_t{6}, some.size()}) {
             RayColumns<Real> rays;
-            // deque: what is in it is not moved.
+            // A deque does not move its elements.
             std::deque<PageEnd<Real>> column;
             for (std::size_t i = 0; i < rays.columns.size(); ++i) {
                 rays.columns[i].assign(
@@ -377,7 +377,7 @@ TEMPLATE_TEST_CASE("no value behind those of the last ray is read or written", "
             CHECK(column[8].values() == same.t);
             scene.occluded(view, mask.data());
             scene.lit({{at(18), at(19), at(20)}, surface.data(), count}, 0, mask.data());
-            // Of t alone, and rays that leave what was hit.
+            // Queries of t alone, and of rays that leave the hits.
             scene.closest_hits(view, {at(21), next.data()});
             CHECK(next.values() == same.object);
             RaysView<Real> leaving = view;
@@ -390,7 +390,7 @@ TEMPLATE_TEST_CASE("no value behind those of the last ray is read or written", "
     }
 }
 
-TEST_CASE("a ray that starts so far away that its squares are no numbers misses", "[ray_scene]")
+TEST_CASE("a ray whose start is too far away for finite squares misses", "[ray_scene]")
 {
     const Scene scene = parse_scene("sphere { center = (0, 0, -9)  radius = 1 }", "one", {});
     const float zero = 0;
@@ -414,7 +414,8 @@ TEMPLATE_TEST_CASE("a miss has no point, and no surface to start on", "[ray_scen
         "sphere { center = (0, 0, 5)  radius = 1 }\n"
         "sphere { center = (3, 0, 5)  radius = 1 }\n",
         "two", {});
-    // Packets of hits on one surface and of misses, on two surfaces, and of misses alone.
+    // Packets with hits on one surface and misses, with hits on two surfaces, and with misses
+    // alone.
     for (const TestType step : {TestType(0.05), TestType(0.2), TestType(-4)}) {
         constexpr std::size_t count = 32;
         std::vector<TestType> x(count), zero(count), one(count, 1), far(count, 1000);
@@ -459,7 +460,7 @@ TEMPLATE_TEST_CASE("a miss has no point, and no surface to start on", "[ray_scen
     }
 }
 
-TEST_CASE("vectors of hits have all of their arrays or none", "[ray_scene]")
+TEST_CASE("a vector of hits needs all of its arrays or none", "[ray_scene]")
 {
     const RayScene<float> scene(
         parse_scene("sphere { center = (0, 0, 5)  radius = 1 }", "one", {}));
@@ -493,7 +494,7 @@ Object quadric_with(const std::function<void(Quadric&)>& change)
     return {.surface = surface};
 }
 
-/// As somebody may write it who thinks that the kind is enough.
+/// A quadric as a user may write it who expects the kind to be enough.
 Quadric quadric_kind_alone(QuadricKind kind)
 {
     return {.kind = kind};
@@ -541,7 +542,7 @@ std::vector<Refused> refused_objects()
     };
 }
 
-/// The message that every kernel, precision and entry refuses the scene with.
+/// The message with which every kernel, precision and entry point refuses the scene.
 std::string common_message(const Scene& scene)
 {
     std::string message;
@@ -582,7 +583,7 @@ TEST_CASE("every kernel refuses the same objects with the same words", "[ray_sce
     }
 }
 
-TEST_CASE("every kernel refuses a light that shines from nowhere", "[ray_scene]")
+TEST_CASE("every kernel refuses a light without a direction", "[ray_scene]")
 {
     for (const Vec3 vector : {Vec3(0.0), Vec3(0, std::nan(""), 1)}) {
         Scene scene;

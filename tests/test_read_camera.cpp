@@ -69,14 +69,14 @@ TEST_CASE("a rotation is written row by row", "[read_camera]")
     CHECK(read.rotation * Vec3(0.0, 0.0, 1.0) == Vec3(1.0, 0.0, 0.0));
 }
 
-TEST_CASE("a rotation rounded to seven digits is taken", "[read_camera]")
+TEST_CASE("a rotation rounded to seven digits is accepted", "[read_camera]")
 {
     const Camera read =
         camera("rotation = (0.7071068, 0, 0.7071068,  0, 1, 0,  -0.7071068, 0, 0.7071068)");
     CHECK(read.rotation[2][0] == 0.7071068);
 }
 
-TEST_CASE("a rotation rounded to four digits is mended, with one warning", "[read_camera]")
+TEST_CASE("a rotation rounded to four digits is corrected, with one warning", "[read_camera]")
 {
     std::vector<std::string> warnings;
     const auto take = [&](const std::string& line) { warnings.push_back(line); };
@@ -95,9 +95,9 @@ TEST_CASE("a rotation rounded to four digits is mended, with one warning", "[rea
     CHECK(warnings[0] ==
           "x.scene:3:3: 'rotation' is a rotation only within 2e-05; the nearest one is used; write "
           "its numbers with seven digits or use look_at");
-    // Without anybody to warn, too.
+    // The correction does not need a warning handler.
     CHECK(test::parse(text).camera.rotation == rotation);
-    // What is written of it reads back without a warning.
+    // The text written of this scene reads back without a warning.
     CHECK(parse_scene(scene_text(read), "y.scene", take).camera.rotation == rotation);
     CHECK(warnings.size() == 1);
 }
@@ -107,7 +107,7 @@ TEST_CASE("an angle of view is read in degrees", "[read_camera]")
     CHECK(camera("fov = 45").fov == 45.0);
 }
 
-TEST_CASE("nine numbers that are no rotation are refused", "[read_camera]")
+TEST_CASE("nine numbers that do not form a rotation are refused", "[read_camera]")
 {
     const std::string message =
         "x.scene:3:1: camera: 'rotation' is not a rotation: its rows have to be perpendicular, of "
@@ -121,7 +121,7 @@ TEST_CASE("nine numbers that are no rotation are refused", "[read_camera]")
           "0, 1)");
 }
 
-TEST_CASE("a camera is turned in one way", "[read_camera]")
+TEST_CASE("a camera is turned in one way only", "[read_camera]")
 {
     CHECK(camera_error("look_at = (0, 0, 1) rotation = (1, 0, 0,  0, 1, 0,  0, 0, 1)") ==
           "x.scene:3:21: 'rotation' and 'look_at' both turn the camera; remove one of them");
@@ -166,7 +166,7 @@ TEST_CASE("an orbit has a center, an axis and an angle", "[read_camera]")
     CHECK(read.orbit->degrees == -90.0);
 }
 
-TEST_CASE("an orbit goes once round about y unless told otherwise", "[read_camera]")
+TEST_CASE("an orbit goes once around the y axis by default", "[read_camera]")
 {
     const Animation read = animation("frames = 2 orbit { center = (0, 0, 3) }");
     CHECK(read.orbit->axis == Vec3(0.0, 1.0, 0.0));
@@ -192,7 +192,7 @@ TEST_CASE("keys give the camera's pose at frames", "[read_camera]")
     CHECK(read.keys[1].up == Vec3(0.0, 0.0, 1.0));
 }
 
-TEST_CASE("an animation moves the camera in one way", "[read_camera]")
+TEST_CASE("an animation moves the camera in one way only", "[read_camera]")
 {
     CHECK(animation_error("frames = 10") ==
           "x.scene:2:1: animation: it moves nothing; add orbit { ... } or two or more key { ... }");

@@ -14,7 +14,7 @@
 #include <string>
 #include <sys/mman.h>
 
-// Bad input: broken syntax, wrong values, files that are no scenes.
+// Invalid input: broken syntax, wrong values, files that are no scenes.
 namespace packtrace {
 
 using test::any_sphere;
@@ -122,7 +122,7 @@ TEST_CASE("a text without its closing quote is reported at the line's end", "[re
           "x.scene:1:19: the text has no closing quote; end it with \" on the same line");
 }
 
-TEST_CASE("a number that is none, or not finite, is refused where it stands", "[read_errors]")
+TEST_CASE("an invalid or infinite number is refused where it stands", "[read_errors]")
 {
     const auto radius = [](const std::string& value) {
         return error_of("sphere { radius = " + value + " center = (0, 0, 3) }");
@@ -218,7 +218,7 @@ TEST_CASE("the scene's own keys have limits", "[read_errors]")
           "x.scene:2:22: 'pixel_sample' is 1.5; use a number from 0 to 1");
 }
 
-TEST_CASE("the largest values are taken", "[read_errors]")
+TEST_CASE("the largest permitted values are accepted", "[read_errors]")
 {
     const Scene scene = test::parse_with_sphere("max_depth = 64 image_size = 65536 x 1");
     CHECK(scene.max_depth == 64);
@@ -239,14 +239,14 @@ TEST_CASE("an unknown word is refused with the known ones", "[read_errors]")
           "x.scene:2:11: 'shadows' wants one word; write shadows = none");
 }
 
-TEST_CASE("the depth limit's rule is the general model's only", "[read_errors]")
+TEST_CASE("the depth limit's rule belongs to the general model only", "[read_errors]")
 {
     CHECK(error_of_line("depth_limit = local") ==
           "x.scene:2:1: 'depth_limit' belongs to illumination = general, the other models have a "
           "rule of their own; remove it");
 }
 
-TEST_CASE("a light that shines from nowhere is refused", "[read_errors]")
+TEST_CASE("a light without a direction is refused", "[read_errors]")
 {
     CHECK(error_of_line("light { type = point intensity = 1 }") ==
           "x.scene:2:1: light has no 'position'; add for example position = (2, 1, 0)");
@@ -275,7 +275,7 @@ TEST_CASE("a light's keys belong to its type", "[read_errors]")
           "x.scene:2:16: unknown type 'spot'; use one of: ambient, point, directional");
 }
 
-TEST_CASE("a carriage return ends no line by itself", "[read_errors]")
+TEST_CASE("a carriage return alone does not end a line", "[read_errors]")
 {
     CHECK_NOTHROW(parse_scene("# c\r\nsphere { center = (0, 0, 3)  radius = 1 }\r\n", "t", {}));
     CHECK_THAT(error_of("# c\rsphere { }\rsphere { center = (0, 0, 5) }\r"),
@@ -305,7 +305,7 @@ TEST_CASE("messages hold no control bytes and no enormous words", "[read_errors]
           }).starts_with("a\\x0ab\\x1b[31m.scene:1:1: "));
 }
 
-TEST_CASE("quoting keeps whole characters and escapes what is none", "[read_errors]")
+TEST_CASE("quoting keeps whole characters and escapes invalid bytes", "[read_errors]")
 {
     using language::quote;
     CHECK(quote("a b") == "'a b'");
@@ -315,7 +315,7 @@ TEST_CASE("quoting keeps whole characters and escapes what is none", "[read_erro
     CHECK(quote("\xc3") == "'\\xc3'");
     CHECK(quote("\xc2\x9b") == "'\\xc2\\x9b'");
     CHECK(quote("\xff\x80") == "'\\xff\\x80'");
-    // What nobody sees: a no-break space, a byte order mark, a mark of direction.
+    // Invisible characters: a no-break space, a byte order mark, a mark of direction.
     CHECK(quote("\xc2\xa0") == "'\\xc2\\xa0'");
     CHECK(quote("\xef\xbb\xbf") == "'\\xef\\xbb\\xbf'");
     CHECK(quote("\xe2\x80\xae") == "'\\xe2\\x80\\xae'");
@@ -323,7 +323,7 @@ TEST_CASE("quoting keeps whole characters and escapes what is none", "[read_erro
     CHECK(quote(std::string(40, 'a')) == "'" + std::string(40, 'a') + "'");
 }
 
-TEST_CASE("a word's nearest neighbour is at most two slips away", "[read_errors]")
+TEST_CASE("a word's nearest neighbour differs by at most two typing errors", "[read_errors]")
 {
     constexpr std::string_view known[] = {"radius", "center", "up"};
     using language::nearest_word;
@@ -337,7 +337,7 @@ TEST_CASE("a word's nearest neighbour is at most two slips away", "[read_errors]
     CHECK(nearest_word(std::string(1000, 'r'), known).empty());
 }
 
-TEST_CASE("blocks in blocks in blocks are refused, however deep", "[read_errors]")
+TEST_CASE("blocks nested in blocks are refused at any depth", "[read_errors]")
 {
     const std::string message =
         "blocks stand too deep in each other; close an outer one with '}' "
@@ -381,7 +381,7 @@ TEST_CASE("a line of 100 MB is refused without being read whole", "[read_errors]
 
 TEST_CASE("a text of more than 1 GiB is no scene", "[read_errors]")
 {
-    // Memory that is reserved and never touched.
+    // Reserved memory that is never touched.
     constexpr std::size_t size = (std::size_t{1} << 30u) + 1;
     void* memory =
         mmap(nullptr, size, PROT_READ, MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE, -1, 0);

@@ -38,7 +38,7 @@ TEST_CASE("a material without keys is white and matte", "[read_material]")
     CHECK(std::get<ScratchMaterial>(material.model).reflective == 0.0);
 }
 
-TEST_CASE("scratch takes an exponent and a mirror's share", "[read_material]")
+TEST_CASE("scratch takes an exponent and a reflective share", "[read_material]")
 {
     const Material material =
         sphere_material("scratch", "color = (51, 0, 255) specular = 500 reflective = 0.25");
@@ -157,7 +157,7 @@ TEST_CASE("a checker lies over a named material's colour", "[read_material]")
     CHECK_FALSE(scene.objects[1].material.checker.has_value());
 }
 
-TEST_CASE("an unknown material is named with its place and the cure", "[read_material]")
+TEST_CASE("an unknown material is named with its position and a remedy", "[read_material]")
 {
     CHECK(error_of_line("sphere { center = (0, 0, 3) radius = 1 material = gold }") ==
           "x.scene:2:51: unknown material 'gold'; define it with: material gold { ... }");
@@ -177,7 +177,7 @@ TEST_CASE("a material needs a name of its own", "[read_material]")
           "x.scene:2:1: 'material' is a block, not a value; write material gold { ... }");
 }
 
-TEST_CASE("keys beside a named material count instead of its own", "[read_material]")
+TEST_CASE("keys beside a named material override its own", "[read_material]")
 {
     const Scene scene = parse(
         "material red { color = (255, 0, 0) reflective = 0.25 }\n"
@@ -198,7 +198,8 @@ TEST_CASE("keys beside a named material count instead of its own", "[read_materi
         CHECK(object.material.name == "red");
 }
 
-TEST_CASE("a material's fault stands where the material does, used or not", "[read_material]")
+TEST_CASE("an error in a material is reported where the material is, used or not",
+          "[read_material]")
 {
     const std::string bad = "material bad { reflective = 2 }\n";
     const std::string message =
@@ -207,7 +208,7 @@ TEST_CASE("a material's fault stands where the material does, used or not", "[re
     CHECK(error_of(bad + "sphere { center = (0, 0, 3) radius = 1 material = bad }") == message);
 }
 
-TEST_CASE("a key of another model is told from an unknown one", "[read_material]")
+TEST_CASE("a key of another model is distinguished from an unknown key", "[read_material]")
 {
     CHECK(sphere_error("scratch", "diffuse = 0.5") ==
           "x.scene:3:1: 'diffuse' is no material key under illumination = scratch; use color, "
@@ -260,7 +261,7 @@ TEST_CASE("colours out of range or of another form are refused", "[read_material
           "(0.5, 0.4, 0.3)");
 }
 
-TEST_CASE("a checker that makes no sense is refused", "[read_material]")
+TEST_CASE("an invalid checker is refused", "[read_material]")
 {
     const std::string plane = "plane { point = (0, 0, 0) normal = (0, 1, 0)\n";
     CHECK(error_of(plane + "checker = (0, 0, 0), (1, 1, 1), 0 }") ==

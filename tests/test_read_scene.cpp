@@ -6,7 +6,7 @@
 #include <fstream>
 #include <string>
 
-// What a good scene file becomes: the scene's own keys, lights and the syntax.
+// Valid scene files: the scene's own keys, lights and the syntax.
 namespace packtrace {
 
 using test::any_sphere;
@@ -62,7 +62,7 @@ TEST_CASE("note 001's scene is read: its three lights", "[read_scene]")
     CHECK(scene.lights[2].vector == Vec3(1.0, 4.0, 4.0));
 }
 
-TEST_CASE("a scene that says little gets the documented defaults", "[read_scene]")
+TEST_CASE("a scene with few keys gets the documented defaults", "[read_scene]")
 {
     const Scene scene = parse_with_sphere("");
     CHECK(scene.width == 512);
@@ -123,7 +123,7 @@ TEST_CASE("the general model's rule at the depth limit is read", "[read_scene]")
           DepthLimit::background);
 }
 
-TEST_CASE("the sample lies at the pixel's corner for scratch, else in its middle", "[read_scene]")
+TEST_CASE("the sample is at the pixel's corner for scratch, else at its centre", "[read_scene]")
 {
     CHECK(parse_with_sphere("").camera.pixel_sample == Vec2(0.0, 1.0));
     CHECK(parse_with_sphere("illumination = sketch").camera.pixel_sample == Vec2(0.5, 0.5));
@@ -222,7 +222,7 @@ TEST_CASE("every example of the language's reference is read", "[read_scene]")
     CHECK(examples.size() >= 10);
 }
 
-TEST_CASE("the tables of the language's reference are those of its rows", "[read_scene]")
+TEST_CASE("the tables of the language's reference have the program's rows", "[read_scene]")
 {
     for (const std::string_view name : language::key_table_names()) {
         INFO("table " << name << "; docs/write_tables.sh writes it anew");

@@ -104,7 +104,7 @@ TEST_CASE("objects without a name are counted by their kind", "[read_surface]")
     CHECK(scene.objects[4].name == "hat");
 }
 
-TEST_CASE("a name that two objects have is warned of", "[read_surface]")
+TEST_CASE("a name of two objects causes a warning", "[read_surface]")
 {
     const auto warning = [](const std::string& text) {
         std::string lines;
@@ -147,7 +147,7 @@ TEST_CASE("a radius is above 0", "[read_surface]")
           "x.scene:1:38: sphere 1: 'radius' is 0; use a number above 0");
 }
 
-TEST_CASE("a normal points somewhere", "[read_surface]")
+TEST_CASE("a normal has a direction", "[read_surface]")
 {
     CHECK(error_of("plane { point = (0, 0, 0) normal = (0, -0, 0) }") ==
           "x.scene:1:36: plane 1: 'normal' is (0, 0, 0), which points nowhere; use a vector of any "
@@ -155,7 +155,7 @@ TEST_CASE("a normal points somewhere", "[read_surface]")
           "length");
 }
 
-TEST_CASE("a z_range that is no range, and a cap without one, are refused", "[read_surface]")
+TEST_CASE("an invalid z_range, and a cap without a z_range, are refused", "[read_surface]")
 {
     CHECK(error_of("cone { z_range = (1, -0.5) }") ==
           "x.scene:1:18: cone 1: 'z_range' is (1, -0.5), upside down or empty; write the lower end "
@@ -173,7 +173,7 @@ TEST_CASE("a z_range that is no range, and a cap without one, are refused", "[re
           "x.scene:1:17: unknown capped 'maybe'; use one of: no, yes, false, true");
 }
 
-TEST_CASE("a clip that leaves nothing of a surface is told in one warning", "[read_surface]")
+TEST_CASE("a clip that leaves nothing of a surface causes one warning", "[read_surface]")
 {
     const auto warnings_of = [](const std::string& text) {
         std::vector<std::string> warnings;

@@ -20,7 +20,7 @@ Mat4 transform(const std::string& keys)
     return parse("ellipsoid { " + keys + " }").objects[0].transform;
 }
 
-/// Where `keys` take a point.
+/// The image of a point under the transform of `keys`.
 Vec3 moved(const std::string& keys, const Vec3& point)
 {
     return Vec3(transform(keys) * glm::dvec4(point, 1.0));
@@ -109,12 +109,12 @@ TEST_CASE("a transform that flattens the object is refused", "[read_transform]")
           "x.scene:2:1: " + cure);
 }
 
-TEST_CASE("strong scales and shears are no singular transforms", "[read_transform]")
+TEST_CASE("strong scales and shears do not count as singular transforms", "[read_transform]")
 {
     CHECK(transform("scale = (1e-9, 1, 1e9)")[2][2] == 1e9);
     CHECK(transform("scale = 1e-14")[0][0] == 1e-14);
     CHECK(transform("matrix = (1, 1e6, 0, 0,  0, 1, 0, 0,  0, 0, 1, 0)")[1][0] == 1e6);
-    // Flat by its columns, not by its rows.
+    // Its columns are nearly parallel, its rows are not.
     CHECK(transform("matrix = (1e-14, 1e-14, 0, 0,  1, -1, 0, 0,  0, 0, 1, 0)")[0][0] == 1e-14);
 }
 

@@ -1,4 +1,4 @@
-// Note 000 against numbers worked out by hand from its text.
+// Note 000 against numbers computed by hand from its text.
 #include "catch.hpp"
 #include "reference_scenes.hpp"
 
@@ -78,7 +78,7 @@ TEST_CASE("a ray that escapes parallel to L sees the light itself", "[reference_
     check_color(trace(scene, {0, 1, 1}, {0, 0, 2}), scene.background);
 }
 
-TEST_CASE("a mirror shows the light, besides its highlight", "[reference_000]")
+TEST_CASE("a mirror shows the light in addition to its highlight", "[reference_000]")
 {
     // flec runs along L: Ks lsou from the mirror and Ks lsou 1^S from the highlight, N.L = 0.8.
     Scene scene = floor_scene();
@@ -101,7 +101,7 @@ TEST_CASE("depth 5 is the last to be seen, then comes the background", "[referen
     check_color(trace(scene, {0, 0, 0}, {0, 0, 1}), Rgb(0.1 + 0.5));
 }
 
-TEST_CASE("where Ks + Kr = 1 a bright surrounding is seen undimmed", "[reference_000]")
+TEST_CASE("if Ks + Kr = 1 a bright surrounding is seen undimmed", "[reference_000]")
 {
     Scene scene = sketch_scene();
     scene.background = Rgb(1);

@@ -1,4 +1,4 @@
-// Note 001 against numbers worked out by hand from its text.
+// Note 001 against numbers computed by hand from its text.
 #include "catch.hpp"
 #include "reference/models/note_001.hpp"
 #include "reference/render_reference.hpp"
@@ -17,8 +17,8 @@ using V = reference::Vec3<double>;
 
 constexpr double inf = reference::infinity<double>;
 
-// The note's listing with its radii put back. The size keeps clear of canvas points like
-// (-0.4, 0.1), where the ray touches the blue sphere and the square root halves the digits.
+// The note's listing with its missing radii. The picture size avoids canvas points like (-0.4,
+// 0.1), where the ray touches the blue sphere and the square root halves the number of digits.
 Scene note_spheres()
 {
     const auto shiny = [](const Rgb& color, double specular, double reflective) {
@@ -44,7 +44,7 @@ V light_at(const Scene& scene, const V& P, const V& N, const V& view, double s)
 
 }  // namespace
 
-TEST_CASE("a ray through a sphere's centre meets it a radius before and after", "[reference_001]")
+TEST_CASE("a ray through a sphere's centre hits it a radius before and after", "[reference_001]")
 {
     const reference::SphereBody<double> unit{{0, 0, 3}, 1, 0};
     CHECK(intersect_ray_sphere(V(0, 0, 0), V(0, 0, 1), unit) == std::pair(4.0, 2.0));
@@ -53,7 +53,7 @@ TEST_CASE("a ray through a sphere's centre meets it a radius before and after", 
     CHECK(intersect_ray_sphere(V(0, 2, 0), V(0, 0, 1), unit) == std::pair(inf, inf));
 }
 
-TEST_CASE("a ray meets a plane at n.(point - O) / n.D, and a parallel one never", "[reference_001]")
+TEST_CASE("a ray hits a plane at n.(point - O) / n.D, and a parallel one never", "[reference_001]")
 {
     const reference::PlaneBody<double> floor{{7, -1, 9}, {0, 1, 0}, 0};
     CHECK(intersect_ray_plane(V(0, 2, 0), V(1, -0.5, 0), floor) == 6.0);
@@ -76,14 +76,14 @@ TEST_CASE("a coloured light works on each channel alone", "[reference_001]")
     check_color(light_at(scene, {0, 0, 0}, {0, 1, 0}, {0, 1, 0}, -1), Rgb(0.8, 0.4, 0.0));
 }
 
-TEST_CASE("the highlight does not ask whether the light is in front", "[reference_001]")
+TEST_CASE("a light behind the surface makes a highlight too", "[reference_001]")
 {
     // N.L = -4, R = (-3, -4, 0), R.V/|R| = 0.6.
     Scene scene{.lights = {directional({3, -4, 0}, 0.5)}};
     check_color(light_at(scene, {0, 0, 0}, {0, 1, 0}, {-1, 0, 0}, 1), Rgb(0.3));
 }
 
-TEST_CASE("a ray that meets nothing gets the background", "[reference_001]")
+TEST_CASE("a ray that hits nothing gets the background", "[reference_001]")
 {
     Scene scene = note_spheres();
     scene.background = Rgb(0.1, 0.2, 0.3);
@@ -92,7 +92,8 @@ TEST_CASE("a ray that meets nothing gets the background", "[reference_001]")
 
 TEST_CASE("local and reflected colour blend as local*(1-r) + reflected*r", "[reference_001]")
 {
-    // Head on the mirror's ray turns back: background, or the green sphere behind the eye.
+    // Perpendicular to the mirror the ray turns back: background, or the green sphere behind the
+    // eye.
     Scene scene{.background = Rgb(0.8, 0.4, 0.0),
                 .objects = {sphere({0, 0, 3}, 1, matte(Rgb(1), 0.25))},
                 .lights = {ambient(0.5)}};
@@ -138,8 +139,8 @@ TEST_CASE("camera rays begin at the projection plane, the plane included", "[ref
     scene.width = scene.height = 2;
     scene.lights = {point_light({0, 0, 3}, 1)};
     const auto middle = [&] { return reference::Reference<double>(scene).trace_pixel(1, 0); };
-    // Both roots, 0.5 and 1.5: only the far one is past the plane. A sphere's normal stays
-    // outside and meets the light behind; a plane's turns to the viewer and does not.
+    // Of the roots 0.5 and 1.5 only the second is past the plane. A sphere's normal stays outward,
+    // so the light behind reaches it; a plane's normal turns to the viewer, so the light does not.
     scene.objects = {sphere({0, 0, 1}, 0.5, matte(Rgb(1)))};
     check_color(middle(), Rgb(1));
     scene.objects = {plane({0, 0, 1.5}, {0, 0, 1}, matte(Rgb(1)))};
@@ -163,7 +164,7 @@ TEST_CASE("squares of a checker change at multiples of their size", "[reference_
     CHECK(at(3, 3) == 1);
     CHECK(at(-1, 1) == 0);
     CHECK(at(-1, -1) == 1);
-    // A matrix takes the squares along: twice as wide in x.
+    // A matrix scales the squares: twice as wide in x.
     scene.objects[0].transform[0][0] = 2.0;
     CHECK(at(3, 1) == 1);
     CHECK(at(5, 1) == 0);
@@ -180,7 +181,8 @@ TEST_CASE("a sphere under a matrix keeps t and takes its normal by the inverse t
     const auto hit = closest_intersection(bodies, V(-1, 0, 0), V(2, 0, 0), 0.001, inf);
     CHECK(hit.object == 0);
     CHECK(hit.t == 2.0);
-    // Own point (0.6, 0.8, 0) is (6.2, 0.8, 0); the gradient there is (1.2/4, 0.8, 0).
+    // The point (0.6, 0.8, 0) of object space is (6.2, 0.8, 0); the gradient there is (1.2/4, 0.8,
+    // 0).
     const V N = facing(bodies, hit, V(6.2, 0.8, 0), V(2, 0, 0)).outward;
     const double size = std::hypot(0.3, 0.8);
     check_color(N, Rgb(0.3 / size, 0.8 / size, 0));
@@ -197,7 +199,7 @@ TEST_CASE("the lower object number wins at equal t, whatever the surfaces", "[re
               .object == 0);
 }
 
-TEST_CASE("double meets a ground of radius 5000 where long double does", "[reference_001]")
+TEST_CASE("double hits a ground of radius 5000 where long double does", "[reference_001]")
 {
     using Wide = reference::Vec3<long double>;
     Scene scene{.objects = {sphere({0, -5001, 0}, 5000)}};
@@ -218,9 +220,9 @@ TEST_CASE("double meets a ground of radius 5000 where long double does", "[refer
 
 TEST_CASE("the middle of the note's picture is the red sphere's topmost point", "[reference_001]")
 {
-    // Canvas (0, 0) touches the red sphere at (0, 0, 3) with N = (0, 1, 0). Both lights reach
-    // it: N.L/|L| is 1/sqrt(14) and 4/sqrt(33); the highlights vanish; the mirrored ray goes on
-    // along z into the black background, with weight 0.2.
+    // Canvas (0, 0) touches the red sphere at (0, 0, 3) with N = (0, 1, 0). Both lights reach that
+    // point: N.L/|L| is 1/sqrt(14) and 4/sqrt(33), and the highlights vanish. The mirrored ray
+    // continues along z into the black background, with weight 0.2.
     const double local = 0.2 + 0.6 / std::sqrt(14.0) + 0.2 * 4 / std::sqrt(33.0);
     const Scene scene = note_spheres();
     check_color(reference::Reference<double>(scene).trace_pixel(19, 18), Rgb(0.8 * local, 0, 0));
@@ -237,7 +239,8 @@ TEST_CASE("float, double and long double draw the same picture", "[reference_001
     const Image<long double> exact = render_reference<long double>(scene);
     for (std::size_t i = 0; i < picture.rgb.size(); ++i)
         REQUIRE(std::abs(static_cast<double>(exact.rgb[i]) - picture.rgb[i]) <= 1e-9);
-    // The ground's radius is too much for any formula on it in float; the others are not.
+    // The ground's radius is too large for any formula in float; without the ground the pictures
+    // agree.
     scene.objects.pop_back();
     const Image<double> without_ground = render_reference<double>(scene);
     const Image<float> single = render_reference<float>(scene);

@@ -1,4 +1,4 @@
-// Note 002 against numbers worked out by hand from its formula.
+// Note 002 against numbers computed by hand from its formula.
 #include "catch.hpp"
 #include "reference_scenes.hpp"
 
@@ -46,7 +46,7 @@ TEST_CASE("R comes in with ks, T with kt, both white", "[reference_002]")
     Scene scene = whitted_floor();
     scene.background = Rgb(0, 1, 0);
     check_color(seen(scene), Rgb(0.6536, 0.4036 + 0.3, 0.1536));
-    // Without bending the transmitted ray goes on to a floor below, which has ambient light.
+    // Without refraction the transmitted ray continues to a floor below, which has ambient light.
     auto& model = std::get<WhittedMaterial>(scene.objects[0].material.model);
     model.transmissive = Rgb(0.5);
     WhittedMaterial glowing{.ambient = Rgb(1)};
@@ -54,7 +54,7 @@ TEST_CASE("R comes in with ks, T with kt, both white", "[reference_002]")
     check_color(seen(scene), Rgb(0.6536, 0.7036, 0.1536 + 0.5 * 0.2));
 }
 
-TEST_CASE("where the ray tree ends R and T are left out", "[reference_002]")
+TEST_CASE("at the end of the ray tree R and T do not count", "[reference_002]")
 {
     Scene scene = whitted_floor();
     scene.background = Rgb(0, 1, 0);
@@ -68,13 +68,13 @@ TEST_CASE("a transparent occluder scales the light by its transparency", "[refer
     scene.objects.push_back(sphere({0, 2, 0}, 0.25, shaded(clear(Rgb(0.5, 0.25, 1)))));
     // Opaque shadows: only Ia is left.
     check_color(seen(scene), Rgb(0.1, 0.05, 0));
-    // Crossed twice, counted once.
+    // The ray enters and leaves the occluder, which counts once.
     scene.shadows = ShadowKind::transparent;
     check_color(seen(scene), Rgb(0.1 + 0.5 * 0.5536, 0.05 + 0.25 * 0.3536, 0.1536));
     // Two occluders multiply.
     scene.objects.push_back(sphere({0, 3, 0}, 0.25, shaded(clear(Rgb(0.1)))));
     check_color(seen(scene), Rgb(0.1 + 0.05 * 0.5536, 0.05 + 0.025 * 0.3536, 0.01536));
-    // One beyond the light does not count, an opaque one stops it.
+    // An occluder beyond the light does not count; an opaque one ends the ray.
     scene.objects.push_back(sphere({0, 5, 0}, 0.25, shaded(WhittedMaterial{})));
     check_color(seen(scene), Rgb(0.1 + 0.05 * 0.5536, 0.05 + 0.025 * 0.3536, 0.01536));
     scene.objects.push_back(sphere({0, 1, 0}, 0.25, shaded(WhittedMaterial{})));
@@ -85,7 +85,8 @@ TEST_CASE("a transparent occluder scales the light by its transparency", "[refer
 
 TEST_CASE("the normal faces the viewer from below too", "[reference_002]")
 {
-    // The light above no longer counts, one below does as the other did.
+    // The light above does not count from this side; one below has the same effect as the light
+    // above had.
     Scene scene = whitted_floor();
     const V org(-3, -4, 0);
     const V dir(3, 4, 0);

@@ -1,4 +1,4 @@
-// Note 004 against numbers worked out by hand from its algorithms.
+// Note 004 against numbers computed by hand from its algorithms.
 #include "catch.hpp"
 #include "reference/models/note_004.hpp"
 #include "reference_scenes.hpp"
@@ -47,10 +47,10 @@ TEST_CASE("f is r0 + r1 Id + r2 Is^r3 times colour and light", "[reference_004]"
     check_color(seen(scene), Rgb(0.41, 0.41, 0));
 }
 
-TEST_CASE("nothing shines where R turns from V, whatever the exponent, in packets too",
+TEST_CASE("a highlight vanishes where R points away from V, for any exponent, in packets too",
           "[reference_004]")
 {
-    // The light behind the viewer's shoulder: Is = 0 for half of what it lights.
+    // The light is behind the viewer: Is = 0 for half of the surface that it lights.
     Scene scene = shader_scene({sphere({0, 0, 4}, 1, reflecting(0, 0, 1, 0))},
                                {directional({1, 0, 0.2}, 0.5)});
     scene.width = scene.height = 16;
@@ -87,11 +87,11 @@ TEST_CASE("an object beyond the light casts no shadow", "[reference_004]")
     check_color(seen(scene), Rgb(0.1));
 }
 
-TEST_CASE("each object sees the shadow ray from the world, whatever stands before it in the list",
+TEST_CASE("each object gets the shadow ray from the world, whatever precedes the object",
           "[reference_004]")
 {
-    // As the listing has it, the occluder would get the ray in the space of the object before,
-    // which stands far away and is much larger.
+    // In the listing, the occluder would get the ray in the previous object's space. That object is
+    // far away and much larger.
     Scene scene = shader_floor();
     scene.objects.push_back(sphere({0, 0, 0}, 1, reflecting(0, 0, 0, 1)));
     scale(scene.objects[1], 10, 10, 10);
@@ -140,9 +140,9 @@ TEST_CASE("minimumIntersection lists each object once, nearest first", "[referen
     CHECK(list[2].t0 == 8);
 }
 
-TEST_CASE("under a similarity the own space gives the world's colours", "[reference_004]")
+TEST_CASE("under a similarity object space gives the world's colours", "[reference_004]")
 {
-    // The same sphere as surface and as matrix: three times as large, turned about z.
+    // The same sphere as surface and by matrix: three times as large, turned about z.
     const Material material = reflecting(0.1, 0.4, 0.5, 7);
     const std::vector<Light> lights = {point_light({4, 9, -6}, 1), directional({-1, 2, -3}, 1)};
     const Scene direct = shader_scene({sphere({1, 0, 0}, 3, material)}, lights);
@@ -155,11 +155,11 @@ TEST_CASE("under a similarity the own space gives the world's colours", "[refere
     }
 }
 
-TEST_CASE("under a non-uniform scale the own space gives other angles than the world",
+TEST_CASE("under a non-uniform scale object space gives other angles than the world",
           "[reference_004]")
 {
-    // The floor stretched by 2 in y and a light at (4, 4, 0), which is (4, 2, 0) in own space:
-    // there Id = 2/sqrt(20), in the world it would be 1/sqrt(2).
+    // The floor stretched by 2 in y and a light at (4, 4, 0), which is (4, 2, 0) in object space.
+    // There Id = 2/sqrt(20); in the world it would be 1/sqrt(2).
     Scene scene = shader_scene({plane({0, 0, 0}, {0, 1, 0}, reflecting(0, 1, 0, 1))},
                                {point_light({4, 4, 0}, 1)});
     check_color(seen(scene), Rgb(1 / std::sqrt(2.0)));

@@ -1,4 +1,5 @@
-// Closed bodies are closed in the scalar reference: what goes in comes out, at rims too.
+// Closed bodies are closed in the scalar reference: rays leave them as often as they enter them, at
+// rims too.
 #include "catch.hpp"
 #include "reference/ray.hpp"
 #include "reference/surfaces/hits.hpp"
@@ -20,7 +21,7 @@ constexpr Real unbounded = reference::infinity<Real>;
 
 using Coefficients = std::array<double, 10>;
 
-/// A capped kind of quadric; `radius` is that of its circle at height z.
+/// A capped kind of quadric; `radius` gives the radius of its circle at height z.
 struct CappedKind {
     std::string name;
     Coefficients coefficients;
@@ -64,7 +65,7 @@ Object capped(const CappedKind& kind)
     return object;
 }
 
-/// Rays from inside a capped body in the body's own space, half of them aimed at its rims.
+/// Rays from inside a capped body in object space, half of them aimed at its rims.
 class RaysInside {
 public:
     explicit RaysInside(const CappedKind& kind) : kind_(kind)
@@ -130,7 +131,7 @@ std::vector<reference::SurfaceHit<Real>> hits_ahead(const reference::Bodies<Real
     return reference::all_hits(bodies, org, dir, Real(0), unbounded<Real>);
 }
 
-/// Whether hits lead out, in and out again in turns, and out at last.
+/// Whether hits alternate between leaving and entering, beginning and ending with leaving.
 template <class Real>
 bool ends_outside(const std::vector<reference::SurfaceHit<Real>>& hits)
 {
@@ -171,7 +172,7 @@ TEMPLATE_TEST_CASE("every ray from inside a capped body leaves it once more than
         }
 }
 
-TEMPLATE_TEST_CASE("a ray mirrored within a capped body stays in it, at rims too",
+TEMPLATE_TEST_CASE("a mirrored ray inside a capped body stays in it, at rims too",
                    "[reference_closed]", float, double, long double)
 {
     using Vec = reference::Vec3<TestType>;
@@ -196,7 +197,7 @@ TEMPLATE_TEST_CASE("a ray mirrored within a capped body stays in it, at rims too
                     ++lost;
                     break;
                 }
-                // What goes on outside meets the body again only where it enters it.
+                // A ray that continues outside hits the body again only where it enters.
                 const auto beyond = closest_surface(world, start_at(world, at->through(), at->P),
                                                     dir, unbounded<TestType>);
                 entered_again += beyond && beyond->leaving;
@@ -209,7 +210,7 @@ TEMPLATE_TEST_CASE("a ray mirrored within a capped body stays in it, at rims too
     }
 }
 
-TEST_CASE("side and cap of a cylinder share their edge", "[reference_closed]")
+TEST_CASE("the side and a cap of a cylinder share their edge", "[reference_closed]")
 {
     Scene scene{.objects = {capped(capped_kinds()[1])}};
     const reference::Bodies<double> bodies(scene);
@@ -226,7 +227,7 @@ TEST_CASE("side and cap of a cylinder share their edge", "[reference_closed]")
     REQUIRE(into_edge.size() == 2);
     CHECK(into_edge[0].normal == V(0, 0, 1));
     CHECK(into_edge[1].normal == V(1, 0, 0));
-    // One that touches the edge is there twice.
+    // A ray that touches the edge hits it twice.
     const auto touching = hits_ahead(bodies, V(-2, 0, 0), V(1, 0, 1));
     REQUIRE(touching.size() == 2);
     CHECK(touching[0].t == 1.0);

@@ -1,4 +1,4 @@
-// The one equation, by hand and against the notes that lower to it.
+// The general equation, by hand and against the notes that reduce to it.
 #include "catch.hpp"
 #include "reference/render_reference.hpp"
 #include "reference_scenes.hpp"
@@ -11,7 +11,7 @@ namespace {
 
 using V = reference::Vec3<double>;
 
-// Nested and overlapping glass, a mirror and matter, lit by two lights. `make` gives the
+// Nested and overlapping glass, a mirror and a matt object, lit by two lights. `make` gives the
 // material from ambient, diffuse, specular and transmitted share, and colour.
 template <class Make>
 Scene glass_scene(Illumination illumination, const Make& make)
@@ -77,7 +77,7 @@ TEST_CASE("every coefficient has its term", "[reference_general]")
     check_color(trace(scene, org, dir), Rgb(0.7, 0.6, 0.32));
 }
 
-TEST_CASE("total internal reflection gives the mirror what was to be transmitted",
+TEST_CASE("total internal reflection adds the transmitted share to the mirror",
           "[reference_general]")
 {
     // From inside the glass below y = 0, at 45 degrees: the reflected ray finds the red floor.
@@ -100,8 +100,8 @@ TEST_CASE("sketch is the equation with the background at the depth limit", "[ref
         Scene lowered = glass_scene(Illumination::general, general);
         as_note.max_depth = lowered.max_depth = depth;
         lowered.depth_limit = DepthLimit::background;
-        // The note's highlights come from lights behind a surface too, the equation's do not; so
-        // narrow ones come from none of these.
+        // The note's highlights include those of lights behind a surface, the equation's do not.
+        // Highlights this narrow never come from these lights.
         for (std::size_t i = 0; i < as_note.objects.size(); ++i) {
             std::get<SketchMaterial>(as_note.objects[i].material.model).shininess = 1e6;
             std::get<GeneralMaterial>(lowered.objects[i].material.model).shininess = 1e6;

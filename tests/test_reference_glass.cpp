@@ -1,4 +1,4 @@
-// Refraction in the scalar reference against Snell's law and the rules of the glass stack.
+// Refraction in the scalar reference against Snell's law and the rules of the stack of media.
 #include "catch.hpp"
 #include "reference/glass.hpp"
 #include "reference_scenes.hpp"
@@ -29,7 +29,7 @@ public:
         return {org, reference::normalize(dir), glass_.stack_at(world_.bodies, org, dir)};
     }
 
-    // The ray behind the next surface; fails where there is none.
+    // The ray behind the next surface; fails if there is no surface.
     Ray step(const Ray& ray) const
     {
         const auto at = closest_surface(world_, ray);
@@ -56,13 +56,13 @@ private:
     reference::Glass<double> glass_;
 };
 
-// Between z = -1 and z = 1.
+// Glass between z = -1 and z = 1.
 Object glass_slab()
 {
     return quadric({0, 0, 1, 0, 0, 0, 0, 0, 0, -1});
 }
 
-// Sine of the angle between a unit direction and the z axis.
+// The sine of the angle between a unit direction and the z axis.
 double sine(const Ray& ray)
 {
     return std::hypot(ray.dir.x, ray.dir.y);
@@ -90,9 +90,9 @@ TEST_CASE("total internal reflection begins at the critical angle", "[reference_
     };
     CHECK_FALSE(walk.totally_reflects(below(critical - 1e-6)));
     CHECK(walk.totally_reflects(below(critical + 1e-6)));
-    // Just below it the ray leaves along the surface.
+    // Just below the critical angle the ray leaves along the surface.
     CHECK(sine(walk.step(below(critical - 1e-6))) == Approx(1.0).epsilon(1e-5));
-    // Into the glass nothing is ever reflected totally.
+    // On the way into the glass there is no total reflection.
     CHECK_FALSE(walk.totally_reflects(walk.start({0, 0, 1}, {1, 0, -1e-3})));
 }
 
@@ -111,7 +111,7 @@ TEST_CASE("a slab shifts a ray by the analytic amount and keeps its direction", 
     }
 }
 
-TEST_CASE("nested glass goes by the ior of what the ray is in", "[reference_glass]")
+TEST_CASE("in nested glass the ior of the innermost medium counts", "[reference_glass]")
 {
     // A slab of 1.3 holds one of 1.8, half as thick. n sin stays 0.5 throughout.
     Object inner = glass_slab();
@@ -127,9 +127,9 @@ TEST_CASE("nested glass goes by the ior of what the ray is in", "[reference_glas
     }
 }
 
-TEST_CASE("leaving a body deeper in the stack bends nothing", "[reference_glass]")
+TEST_CASE("leaving a body deeper in the stack does not refract the ray", "[reference_glass]")
 {
-    // The second slab reaches from z = 0 to z = 2: entered after the first, left after it.
+    // The second slab extends from z = 0 to z = 2: entered after the first, left after it.
     Object second = glass_slab();
     second.transform[3][2] = 1.0;
     const GlassWalk walk({glass_slab(), second}, {1.3, 1.8});
@@ -142,9 +142,9 @@ TEST_CASE("leaving a body deeper in the stack bends nothing", "[reference_glass]
     CHECK(ray.org.z == Approx(2.0));
 }
 
-TEST_CASE("an eye inside glass starts with the stack around it", "[reference_glass]")
+TEST_CASE("an eye inside glass starts with the media around it", "[reference_glass]")
 {
-    // Whichever is named first, the inner one is on top.
+    // The inner medium is on top, whichever comes first in the scene.
     const GlassWalk inner_first({sphere({0, 0, 0}, 1), sphere({0, 0, 0}, 3)}, {1.8, 1.3});
     CHECK(inner_first.start({0, 0, 0}, {0, 0, 1}).inside.top() == 0);
     const GlassWalk outer_first({sphere({0, 0, 0}, 3), sphere({0, 0, 0}, 1)}, {1.3, 1.8});
@@ -167,12 +167,13 @@ TEST_CASE("an open glass surface around the eye ends at its z range", "[referenc
     for (const double forward : {1.0, -1.0}) {
         const GlassWalk walk({tube, sphere({0, 0, 0}, 3)}, {1.8, 1.3});
         CHECK(walk.start({0, 0, 0}, {0, 0, forward}).inside.top() == 0);
-        // Through its side it is left first, too.
+        // Through its side the ray leaves it first, too.
         CHECK(walk.start({0, 0, 0}, {1, 0, 0}).inside.top() == 0);
     }
 }
 
-TEST_CASE("an open glass surface entered by its open end bends nothing", "[reference_glass]")
+TEST_CASE("an open glass surface entered through its open end does not refract the ray",
+          "[reference_glass]")
 {
     Object tube = quadric({1, 1, 0, 0, 0, 0, 0, 0, 0, -1});
     std::get<Quadric>(tube.surface).z_range = ZRange{-1, 1};
@@ -183,7 +184,8 @@ TEST_CASE("an open glass surface entered by its open end bends nothing", "[refer
     CHECK(out.inside.top() == reference::GlassStack::outside);
 }
 
-TEST_CASE("a ninth body around the ray is not recorded and bends nothing", "[reference_glass]")
+TEST_CASE("a ninth medium around the ray is not recorded and does not refract the ray",
+          "[reference_glass]")
 {
     std::vector<Object> shells;
     std::vector<double> iors;

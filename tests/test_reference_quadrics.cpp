@@ -1,4 +1,4 @@
-// Surfaces of the scalar reference against intersections worked out by hand.
+// Surfaces of the scalar reference against intersections computed by hand.
 #include "catch.hpp"
 #include "reference/surfaces/hits.hpp"
 #include "reference_scenes.hpp"
@@ -54,7 +54,7 @@ Object clipped(Object object, double low, double high, bool capped)
 
 }  // namespace
 
-TEST_CASE("each quadric is met where its equation says", "[reference_quadrics]")
+TEST_CASE("each quadric is hit where its equation says", "[reference_quadrics]")
 {
     check_t(hits_of(quadric(ellipsoid), {0.6, 0, -3}, {0, 0, 1}), {2.2, 3.8});
     check_t(hits_of(quadric(cylinder), {-3, 0.6, 5}, {1, 0, 0}), {2.2, 3.8});
@@ -66,7 +66,7 @@ TEST_CASE("each quadric is met where its equation says", "[reference_quadrics]")
     check_t(hits_of(quadric(slab), {9, 9, -3}, {0, 0, 1}), {2, 4});
 }
 
-TEST_CASE("a ray that meets a quadric once gets that one root", "[reference_quadrics]")
+TEST_CASE("a ray with one hit of a quadric gets that one root", "[reference_quadrics]")
 {
     check_t(hits_of(quadric(paraboloid), {0.5, 0, 10}, {0, 0, -1}), {9.75});
     check_t(hits_of(quadric(saddle), {2, 1, 10}, {0, 0, -1}), {7});
@@ -82,7 +82,7 @@ TEST_CASE("a ray along a cylinder's axis misses its side", "[reference_quadrics]
     CHECK(hits_of(quadric(slab), {0, 0, 0}, {1, 0, 0}).empty());
 }
 
-TEST_CASE("normals go up the gradient", "[reference_quadrics]")
+TEST_CASE("normals point along the gradient", "[reference_quadrics]")
 {
     const double size = std::sqrt(16.0 + 4 + 1);
     check_color(hits_of(quadric(saddle), {2, 1, 10}, {0, 0, -1})[0].normal,
@@ -94,7 +94,7 @@ TEST_CASE("normals go up the gradient", "[reference_quadrics]")
     check_color(through[1].normal, Rgb(0, 0, 1));
 }
 
-TEST_CASE("a z range keeps the part within, its ends included", "[reference_quadrics]")
+TEST_CASE("a z range keeps the part within it, including its ends", "[reference_quadrics]")
 {
     const Object open = clipped(quadric(cylinder), 0, 2, false);
     check_t(hits_of(open, {-3, 0, 1}, {1, 0, 0}), {2, 4});
@@ -117,7 +117,7 @@ TEST_CASE("caps close the ends of a clipped quadric", "[reference_quadrics]")
     check_t(slanted, {1, 2});
     check_color(slanted[0].normal, Rgb(0, 0, 1));
     check_color(slanted[1].normal, Rgb(1, 0, 0));
-    // Both nappes of a cone: two caps and, through its waist, two sides.
+    // Both halves of a cone: two caps and, through the apex, two sides.
     const Object hourglass = clipped(quadric(cone), -2, 2, true);
     check_t(hits_of(hourglass, {1, 0, -3}, {0, 0, 1}), {1, 2, 4, 5});
     // A saddle's inside at z = 0 is x² < y².
@@ -125,7 +125,7 @@ TEST_CASE("caps close the ends of a clipped quadric", "[reference_quadrics]")
     check_t(hits_of(piece, {0, 1, -1}, {0, 0, 1}), {1, 2});
 }
 
-TEST_CASE("a shear takes surface and normal along", "[reference_quadrics]")
+TEST_CASE("a shear moves both surface and normal", "[reference_quadrics]")
 {
     // World x is own x + own z: at z = 2 the cylinder spans x = 1 to 3.
     Object object = quadric(cylinder);
@@ -136,7 +136,7 @@ TEST_CASE("a shear takes surface and normal along", "[reference_quadrics]")
     check_color(hits[1].normal, Rgb(1, 0, -1) / std::sqrt(2.0));
 }
 
-TEST_CASE("a mirroring matrix leaves the outside outside", "[reference_quadrics]")
+TEST_CASE("a reflection keeps the outside outside", "[reference_quadrics]")
 {
     Object object = quadric(ellipsoid);
     object.transform[0][0] = -2.0;
@@ -145,7 +145,7 @@ TEST_CASE("a mirroring matrix leaves the outside outside", "[reference_quadrics]
     check_color(hits[0].normal, Rgb(-1, 0, 0));
 }
 
-TEST_CASE("a far origin costs no digits", "[reference_quadrics]")
+TEST_CASE("a far origin loses no digits", "[reference_quadrics]")
 {
     const Hits hits = hits_of(quadric(ellipsoid), {0.6, 0, -1e6}, {0, 0, 2}, 0);
     REQUIRE(hits.size() == 2);
@@ -153,12 +153,13 @@ TEST_CASE("a far origin costs no digits", "[reference_quadrics]")
     CHECK(hits[1].t == Approx((1e6 + 0.8) / 2).epsilon(1e-15));
 }
 
-TEMPLATE_TEST_CASE("any line meets both of two crossing planes", "[reference_quadrics]", float,
+TEMPLATE_TEST_CASE("any line hits both of two intersecting planes", "[reference_quadrics]", float,
                    double, long double)
 {
     using Vec = reference::Vec3<TestType>;
     const TestType t_max = reference::infinity<TestType>;
-    // As they are, turned by coefficients, and turned and moved by a matrix and by coefficients.
+    // Without a transform, turned by coefficients, and turned and moved by a matrix and by
+    // coefficients.
     std::vector<Object> objects = {quadric(crossing_planes), quadric(turned_crossing_planes),
                                    quadric(crossing_planes),
                                    quadric({1, 0, -1, 0, 0, 0, -6, 0, 4, 5})};
@@ -173,7 +174,7 @@ TEMPLATE_TEST_CASE("any line meets both of two crossing planes", "[reference_qua
         std::uniform_real_distribution<double> place(-5, 5);
         int missed = 0;
         for (int i = 0; i < 20'000; ++i) {
-            // Half of them through the edge of the untransformed planes.
+            // Half of the rays pass through the edge of the untransformed planes.
             const Vec org(Vec3(place(random), place(random), place(random)));
             const Vec to(Vec3(i % 2 * place(random), place(random), i % 2 * place(random)));
             missed += reference::all_hits(bodies, placement.point_to_world(org),
@@ -184,7 +185,7 @@ TEMPLATE_TEST_CASE("any line meets both of two crossing planes", "[reference_qua
     }
 }
 
-TEST_CASE("a ray through the edge of crossing planes meets them there", "[reference_quadrics]")
+TEST_CASE("a ray through the edge of intersecting planes hits them there", "[reference_quadrics]")
 {
     const Hits hits = hits_of(quadric(crossing_planes), {0, 0, -5}, {0, 0.04, 0.2});
     check_t(hits, {25, 25});
@@ -199,12 +200,12 @@ TEST_CASE("a ray through the edge of crossing planes meets them there", "[refere
     CHECK(reference::Reference<double>(scene).trace_pixel(213, 116).x == 1.0);
 }
 
-TEST_CASE("a ray parallel to a cone's generator meets the cone once, whatever rounding says",
+TEST_CASE("a ray parallel to a cone's generator hits the cone once, whatever rounding says",
           "[reference_quadrics]")
 {
     for (const V& dir : {V(0, 1, 1), V(0.6, 0.8, 1), V(1, 1e-17, 1)})
         CHECK(hits_of(quadric(cone), {3, 1, -2}, dir).size() == 1);
-    // Turned, the direction's rounding leaves a quadratic term of 1e-17.
+    // After the turn, the direction's rounding leaves a quadratic term of 1e-17.
     for (int degrees = 1; degrees < 90; ++degrees) {
         const double angle = degrees * std::acos(-1.0) / 180;
         Object object = quadric(cone);
@@ -247,7 +248,7 @@ TEST_CASE("hits of a needle agree with long double", "[reference_quadrics]")
     CHECK(worst <= 1e-14);
 }
 
-TEST_CASE("coefficients in general position are brought to their axes", "[reference_quadrics]")
+TEST_CASE("coefficients in general position are transformed to their axes", "[reference_quadrics]")
 {
     // The ellipsoid x²/4 + y² + z² = 1 turned by 3-4-5 about z and moved to (1, 2, 3).
     const double c = 0.8, s = 0.6;
@@ -278,10 +279,10 @@ TEST_CASE("all hits come sorted by t, then object, within the range", "[referenc
     CHECK(reference::all_hits(bodies, V(0, 0, 0), V(1, 0, 0), 0.0, infinite).empty());
 }
 
-TEST_CASE("in scratch a sphere's normal stays outside, other normals face the viewer",
+TEST_CASE("in scratch a sphere's normal stays outward, and other normals face the viewer",
           "[reference_quadrics]")
 {
-    // Seen from inside, with a light far beyond the surface: only the sphere is lit by it.
+    // Seen from inside, with a light far beyond the surface, which lights only the sphere.
     Scene scene{.shadows = ShadowKind::none, .lights = {directional({0, 0, 1}, 1)}};
     const V eye(0, 0, 0);
     scene.objects = {sphere({0, 0, 0}, 2, matte(Rgb(1)))};
@@ -293,7 +294,7 @@ TEST_CASE("in scratch a sphere's normal stays outside, other normals face the vi
     check_color(trace(scene, eye, {0, 0, 1}), Rgb(0));
 }
 
-TEST_CASE("two planes that cross are hit where each of them is, however far from their edge",
+TEST_CASE("intersecting planes are hit where each of them is, however far from their edge",
           "[reference_quadrics]")
 {
     std::mt19937 random(5);
@@ -313,7 +314,7 @@ TEST_CASE("two planes that cross are hit where each of them is, however far from
     }
 }
 
-TEST_CASE("of two planes that cross one shades the other, but from no light on itself",
+TEST_CASE("of two intersecting planes one shades the other, but never itself",
           "[reference_quadrics]")
 {
     // Seen at (-5/6, 0, 5/6), on x = -z, from the wedge of negative x.
@@ -329,7 +330,7 @@ TEST_CASE("of two planes that cross one shades the other, but from no light on i
     CHECK(brightness({-6, 0, -7}) == 0);
 }
 
-TEST_CASE("the value at two planes that cross is the distance from the nearer",
+TEST_CASE("the value at two intersecting planes is the distance from the nearer",
           "[reference_quadrics]")
 {
     Scene scene = make_scene();

@@ -1,4 +1,4 @@
-// Files that can't be written: full disks, limits of size, folders that may not be written to.
+// Files that can't be written: full disks, file size limits, folders without write permission.
 #include "catch.hpp"
 #include "program_works.hpp"
 
@@ -12,7 +12,8 @@
 namespace packtrace::test {
 namespace {
 
-/// A run that fails says so in one line, and leaves neither its last file nor an unfinished one.
+/// Checks that a failed run reports this in one line and leaves neither its last file nor an
+/// unfinished one.
 void check_refused(const Work& work, const TempFolder& folder, const ProgramResult& result,
                    const std::string& why)
 {
@@ -24,8 +25,8 @@ void check_refused(const Work& work, const TempFolder& folder, const ProgramResu
     CHECK(temporaries(folder) == 0);
 }
 
-/// Runs the program on a thread that may read and write no more than anybody: root, too, needs
-/// permission there.
+/// Runs the program on a thread without special privileges: there root, too, needs file
+/// permissions.
 ProgramResult run_without_privileges(const std::vector<std::string>& words)
 {
     ProgramResult result;
@@ -37,7 +38,7 @@ ProgramResult run_without_privileges(const std::vector<std::string>& words)
     return result;
 }
 
-/// A folder that may be read, but not written to, for the life of the object.
+/// Makes a folder read-only for the lifetime of the object.
 class ReadOnly {
 public:
     explicit ReadOnly(std::filesystem::path path) : path_(std::move(path))
@@ -58,21 +59,22 @@ private:
 
 }  // namespace
 
-TEST_CASE("on a full disk a run ends with one line and leaves no half file", "[refused_writes]")
+TEST_CASE("on a full disk a run ends with one line and leaves no unfinished file",
+          "[refused_writes]")
 {
     for (const Work& work : all_work()) {
         const TempFolder folder;
         write_rays(folder);
         const std::filesystem::path output = folder / work.output;
         create_directories(output.parent_path());
-        // What is written through the link finds no room.
+        // Writing through the link fails: no space left.
         std::filesystem::create_symlink("/dev/full", output);
         check_refused(work, folder, run_packtrace(words_of(work, folder)),
                       "No space left on device");
     }
 }
 
-TEST_CASE("past a limit of file size a run ends with one line and leaves no half file",
+TEST_CASE("past a limit of file size a run ends with one line and leaves no unfinished file",
           "[refused_writes]")
 {
     for (const Work& work : all_work()) {
@@ -84,7 +86,7 @@ TEST_CASE("past a limit of file size a run ends with one line and leaves no half
     }
 }
 
-TEST_CASE("in a folder that may not be written to a run ends with one line", "[refused_writes]")
+TEST_CASE("in a folder without write permission a run ends with one line", "[refused_writes]")
 {
     for (const Work& work : all_work()) {
         const TempFolder folder;
@@ -95,7 +97,7 @@ TEST_CASE("in a folder that may not be written to a run ends with one line", "[r
     }
 }
 
-TEST_CASE("a file that may not be written to is not replaced", "[refused_writes]")
+TEST_CASE("a file without write permission is not replaced", "[refused_writes]")
 {
     const TempFolder folder;
     const std::filesystem::path picture = folder / "a.pfm";
@@ -109,7 +111,7 @@ TEST_CASE("a file that may not be written to is not replaced", "[refused_writes]
     CHECK(folder.names().size() == 1);
 }
 
-TEST_CASE("a scene that may not be read is refused in one line", "[refused_writes]")
+TEST_CASE("a scene without read permission is refused in one line", "[refused_writes]")
 {
     const TempFolder folder;
     const std::string scene = (folder / "a.scene").string();

@@ -1,4 +1,4 @@
-// Regions of a picture, and renders that are stopped.
+// Regions of a picture, and interrupted renders.
 #include "catch.hpp"
 #include "refusal.hpp"
 #include "run_program.hpp"
@@ -109,7 +109,7 @@ TEST_CASE("a renderer fits its image to the region, and counts its tiles' rays",
     CHECK(counts.camera == 16 * 16);
 }
 
-TEST_CASE("a renderer fits an image whose pixels were moved away", "[region]")
+TEST_CASE("a renderer resizes an image whose pixels were moved away", "[region]")
 {
     const Renderer<float> renderer(quadrics_of_size(40, 30), {});
     std::vector<Image<float>> frames;
@@ -137,7 +137,7 @@ TEST_CASE("a region outside the picture is refused", "[region]")
     }
 }
 
-TEST_CASE("rendering stops where asked to", "[region]")
+TEST_CASE("rendering stops when asked to", "[region]")
 {
     const Scene scene = quadrics_of_size(640, 480);
     for (const Kernel kernel : {Kernel::packet, Kernel::scalar})
@@ -155,7 +155,7 @@ TEST_CASE("rendering stops where asked to", "[region]")
             CHECK_THROWS_AS((void)render<float>(scene, options), StopError);
             CHECK(reached > 0.0);
             CHECK(reached < 0.1);
-            // Asked before it begins.
+            // The callback is asked before rendering begins.
             CHECK_THROWS_AS((void)render<float>(scene, options), StopError);
         }
 }
@@ -180,7 +180,7 @@ TEST_CASE("the scalar kernel stops within a row", "[region]")
         std::this_thread::sleep_for(std::chrono::milliseconds(20));
         source.request_stop();
     });
-    // Rows are reported when they are done.
+    // A row is reported when it is done.
     CHECK_THROWS_AS((void)render<float>(quadrics_of_size(65536, 1), options), StopError);
     CHECK(reached == 0.0);
 }

@@ -1,4 +1,4 @@
-// Error against run time: what is run, what is measured, what is written.
+// Error against run time: the runs, the measurements, the files.
 #include "catch.hpp"
 #include "lab/harness/statistics.hpp"
 #include "lab/report/plot_layout.hpp"
@@ -40,7 +40,7 @@ ReportScene small_scene()
     return {"small", four_spheres(48, 40)};
 }
 
-/// A run of a name, with a time and an error.
+/// A run with a name, a time and an error.
 ReportRun run_of(const std::string& name, double seconds, double rmse)
 {
     ReportRun run;
@@ -50,7 +50,7 @@ ReportRun run_of(const std::string& name, double seconds, double rmse)
     return run;
 }
 
-/// A run that took these seconds.
+/// A run with these times in seconds.
 ReportRun timed_run(const std::string& name, const std::vector<double>& seconds, double rmse)
 {
     ReportRun run = run_of(name, median_of(seconds), rmse);
@@ -59,7 +59,7 @@ ReportRun timed_run(const std::string& name, const std::vector<double>& seconds,
     return run;
 }
 
-/// Every value off by less than a picture shows.
+/// Changes every value by less than a picture shows.
 Truth other_picture(Truth truth)
 {
     for (double& value : truth.image.rgb)
@@ -75,7 +75,7 @@ std::string names_of(const std::vector<const ReportRun*>& runs)
     return names;
 }
 
-/// A subject that shows the truth with every pixel off by `error`.
+/// A subject that renders the truth with every pixel off by `error`.
 Subject constant_error(const Image<double>& truth, double error)
 {
     Subject subject;
@@ -120,8 +120,8 @@ TEST_CASE("a report runs every kernel, precision, instruction set and number of 
 TEST_CASE("a report's errors are those of the pictures against the truth", "[report]")
 {
     ReportScene scene = small_scene();
-    // Of 48 x 40 pixels two look along tangents of a ball to the last digit, which rounding a
-    // direction to single precision decides.
+    // With 48 x 40 pixels, two rays run along tangents of a ball to the last digit, and rounding a
+    // direction to single precision decides their hits.
     set_size(scene.scene, 47, 41);
     const SceneReport whole = report(scene, short_options());
     REQUIRE(whole.studies.size() == 4);
@@ -155,7 +155,7 @@ TEST_CASE("the truth of sampling is the mean of many samples in each pixel", "[r
     CHECK(sampling.runs[1].error.rmse < sampling.runs[0].error.rmse);
 }
 
-TEST_CASE("a truth with no more samples than its runs is refused", "[report]")
+TEST_CASE("a truth with no more samples than its runs have is refused", "[report]")
 {
     ReportOptions options = short_options();
     options.truth_samples = 4;
@@ -165,8 +165,7 @@ TEST_CASE("a truth with no more samples than its runs is refused", "[report]")
         "(samples, adaptive); give it more");
 }
 
-TEST_CASE("each run is timed as often as asked, and its median lies between these times",
-          "[report]")
+TEST_CASE("each run is timed as often as asked, and its median is among these times", "[report]")
 {
     for (const StudyReport& study : report(small_scene(), short_options()).studies)
         for (const ReportRun& run : study.runs) {
@@ -186,7 +185,7 @@ TEST_CASE("quantiles lie between neighbours", "[report]")
     CHECK(relative_spread({1, 2, 3, 4, 5}) == Approx(2.0 / 3.0));
 }
 
-TEST_CASE("known errors come out as they went in", "[report]")
+TEST_CASE("a report shows known errors unchanged", "[report]")
 {
     const Scene scene = four_spheres(16, 16);
     const Truth truth = find_truth(scene, {});
@@ -202,7 +201,7 @@ TEST_CASE("known errors come out as they went in", "[report]")
     CHECK(report.runs[3].error.pixels_off == 0);
     CHECK(report.runs[3].error.max_abs == Approx(1e-3));
     CHECK(report.runs[0].rays == 7);
-    // The truth, the two that are alike, the last.
+    // The truth, one picture for the two equal ones, and the last.
     CHECK(report.pictures.size() == 3);
     CHECK(report.runs[0].picture == 0);
     CHECK(report.runs[1].picture == report.runs[2].picture);
@@ -242,14 +241,14 @@ TEST_CASE("runs whose spreads overlap are undecided", "[report]")
         judgement(study, options)[0] ==
         "Cheapest with an RMSE of at most 0.05: undecided, as the spreads of their times overlap, "
         "between quick (1.1e+03 ms, RMSE 0.01); as quick (1.2e+03 ms, RMSE 0.01).");
-    // Its times lie on both sides of two seconds.
+    // Its times are on both sides of two seconds.
     CHECK(judgement(study, options)[1] ==
           "Most exact within 2e+03 ms: quick (1.1e+03 ms, RMSE 0.01); perhaps, as their times "
           "spread over that limit, exact (1.5e+03 ms, RMSE 1e-06).");
     CHECK(most_exact_within(study, 5.0).run->variant.name == "exact");
 }
 
-TEST_CASE("the Pareto front has the runs that no other beats, as far as times tell", "[report]")
+TEST_CASE("the Pareto front has the runs that no other run surely beats", "[report]")
 {
     std::vector<ReportRun> runs = {
         timed_run("quick", {1.0, 1.1, 1.2}, 0.1), timed_run("middle", {2.0, 2.1, 2.2}, 0.01),
@@ -262,14 +261,15 @@ TEST_CASE("the Pareto front has the runs that no other beats, as far as times te
     CHECK(runs[2].pareto == Pareto::undecided);
     CHECK(runs[3].pareto == Pareto::beaten);
     CHECK(runs[4].pareto == Pareto::on_front);
-    // Of equal errors and times nobody can tell; less exact ones that may be as quick neither.
+    // Runs of equal error and overlapping times are undecided; so are less exact runs that may be
+    // equally fast.
     runs = {timed_run("coarse", {1.0, 1.1, 1.2}, 0.1), timed_run("fine", {1.1, 1.2, 1.3}, 0.01)};
     mark_pareto(runs);
     CHECK(runs[0].pareto == Pareto::undecided);
     CHECK(runs[1].pareto == Pareto::on_front);
 }
 
-TEST_CASE("a report's runs stand as its times say", "[report]")
+TEST_CASE("a report's runs are sorted by their times", "[report]")
 {
     const StudyReport study = report(small_scene(), short_options()).studies.front();
     for (const ReportRun& run : study.runs)
@@ -280,11 +280,11 @@ TEST_CASE("a report's runs stand as its times say", "[report]")
                       [](const ReportRun& run) { return run.pareto != Pareto::beaten; }));
 }
 
-TEST_CASE("labels of a plot lie neither on each other nor on points", "[report]")
+TEST_CASE("labels of a plot overlap neither each other nor points", "[report]")
 {
     const PixelBox area{80, 40, 700, 500};
     std::mt19937 random(5);
-    // All along a line, as runs of one error are; then in a heap.
+    // All along a line, as runs of one error are; then in a cluster.
     for (const double height : {1.0, 60.0}) {
         std::vector<LabelledPoint> points;
         for (int i = 0; i < 26; ++i)
@@ -306,19 +306,19 @@ TEST_CASE("labels of a plot lie neither on each other nor on points", "[report]"
             }
         }
     }
-    // Off a bar of its own or of another.
+    // A label avoids its own error bar and those of others.
     const std::vector<PixelBox> barred =
         place_labels({{200, 200, "x1", 150, 400}, {300, 210, "x2"}}, area, 6.4, 14.0);
     for (const PixelBox& place : barred)
         CHECK_FALSE(overlap(place, {150, 198, 400, 202}));
-    // Alone, a label stands beside its point.
+    // A lone label is beside its point.
     const PixelBox alone = place_labels({{200, 200, "x1"}}, area, 6.4, 14.0).front();
     CHECK(alone.left > 200);
     CHECK(alone.left < 212);
     CHECK(alone.top == 193);
 }
 
-TEST_CASE("axes hold all values between tics that can be read", "[report]")
+TEST_CASE("axes include all values between readable ticks", "[report]")
 {
     const PlotAxis times = fine_axis({0.27, 0.41});
     CHECK(times.low < 0.27);
@@ -350,7 +350,7 @@ TEST_CASE("axes hold all values between tics that can be read", "[report]")
     CHECK(pixels.pixel(0.0) == Approx(500));
 }
 
-TEST_CASE("menus name pictures as a reader would", "[report]")
+TEST_CASE("menus name pictures in readable words", "[report]")
 {
     StudyReport study;
     study.pictures = {{"truth", "truth", Image<double>(1, 1)},
@@ -368,7 +368,7 @@ TEST_CASE("menus name pictures as a reader would", "[report]")
     CHECK(picture_label(study, 0) == "truth, as 1 run has it");
 }
 
-TEST_CASE("a heat map has a legend with the errors its colours stand for", "[report]")
+TEST_CASE("a heat map has a legend with the errors that its colours represent", "[report]")
 {
     StudyReport study;
     study.pictures = {{"truth", "truth", Image<double>(64, 8)}, {"a", "a", Image<double>(64, 8)}};
@@ -390,8 +390,7 @@ TEST_CASE("a heat map has a legend with the errors its colours stand for", "[rep
     CHECK(lit > 30);
 }
 
-TEST_CASE("a truth is kept, found again, and made anew when it is not whole or not true",
-          "[report]")
+TEST_CASE("a truth is cached, found again, and recomputed if it is damaged or wrong", "[report]")
 {
     const TempFolder folder;
     const Scene scene = four_spheres(24, 20);
@@ -417,7 +416,7 @@ TEST_CASE("a truth is kept, found again, and made anew when it is not whole or n
     CHECK(is_kept_apart([](Scene& changed) { changed.lights.pop_back(); }));
     CHECK(is_kept_apart([](Scene& changed) { changed.background = Rgb(0.5); }));
 
-    // The first file, cut short; then with pixels of another picture.
+    // The first file, truncated; then with pixels of another picture.
     std::filesystem::remove_all(request.cache);
     (void)find_truth(scene, request);
     const auto file = std::filesystem::directory_iterator(request.cache)->path();
@@ -434,7 +433,7 @@ TEST_CASE("a truth is kept, found again, and made anew when it is not whole or n
     CHECK((anew.image.rgb == made.image.rgb));
 }
 
-TEST_CASE("a stale truth in the place of the one asked for is found by its key and made anew",
+TEST_CASE("a stale truth in place of the requested one is detected by its key and recomputed",
           "[report]")
 {
     const TempFolder folder;
@@ -443,7 +442,7 @@ TEST_CASE("a stale truth in the place of the one asked for is found by its key a
     const Truth made = find_truth(scene, request);
     const auto file = std::filesystem::directory_iterator(request.cache)->path();
     const TruthKey key = truth_key(scene, request.samples);
-    // The very picture: only the key says that it is of something else.
+    // The same picture: only the key says that it belongs to something else.
     const auto is_found_stale = [&](const auto& change) {
         TruthKey planted = key;
         change(planted);
@@ -462,7 +461,7 @@ TEST_CASE("a stale truth in the place of the one asked for is found by its key a
     CHECK(is_found_stale([](TruthKey& planted) { planted.machine = "another"; }));
 }
 
-TEST_CASE("a kept truth with any one byte changed is made anew", "[report]")
+TEST_CASE("a cached truth with any one byte changed is recomputed", "[report]")
 {
     const TempFolder folder;
     const Scene scene = four_spheres(8, 8);
@@ -481,7 +480,7 @@ TEST_CASE("a kept truth with any one byte changed is made anew", "[report]")
     CHECK(unnoticed == 0);
 }
 
-TEST_CASE("the CSV has a row a run, each of the head's length", "[report]")
+TEST_CASE("the CSV has a row per run, each as long as the head", "[report]")
 {
     const SceneReport scene = report(small_scene(), short_options());
     const std::string csv = report_csv({scene});
@@ -502,7 +501,7 @@ TEST_CASE("the CSV has a row a run, each of the head's length", "[report]")
         CHECK(fields(csv.substr(at, csv.find('\n', at) - at)) == 27);
 }
 
-TEST_CASE("the JSON says what was run, how, and what came of it", "[report]")
+TEST_CASE("the JSON says what was run, how, and with what result", "[report]")
 {
     const SceneReport scene = report(small_scene(), short_options());
     const auto json = nlohmann::json::parse(

@@ -1,4 +1,4 @@
-// A report says what is wrong with kernels that have a defect.
+// A report names the defect of faulty kernels.
 #include "catch.hpp"
 #include "dispatch/kernels.hpp"
 #include "lab/report/report_study.hpp"
@@ -20,7 +20,7 @@ Variant variant_named(const std::string& name, const Scene& scene)
     return {.name = name, .isa = choose_isa().name, .depth = scene.max_depth};
 }
 
-/// The report of sound kernels beside those of a defect.
+/// The report of correct kernels beside those with a defect.
 StudyReport report_beside(const Scene& scene, const Subject& defect)
 {
     const ReportOptions options{.repetitions = 1};
@@ -31,7 +31,7 @@ StudyReport report_beside(const Scene& scene, const Subject& defect)
     return run_study(scene, Study::arithmetic, find_truth(scene, {}), subjects, options);
 }
 
-/// Sound kernels on a scene that was lowered wrongly.
+/// Correct kernels on a scene that was lowered wrongly.
 template <class Change>
 Subject wrongly_lowered(const Scene& scene, const Change& change,
                         SelfHits self_hits = default_self_hits)
@@ -42,7 +42,8 @@ Subject wrongly_lowered(const Scene& scene, const Change& change,
     return packet_subject<float>(scene, lowered, table, variant_named("defect", scene));
 }
 
-/// The defect's errors are of one class above all, which the written report names.
+/// Checks that one class dominates the defect's errors, and that the written report names this
+/// class.
 void check_named(const StudyReport& report, const std::string& kind)
 {
     const ReportRun& sound = report.runs[0];
@@ -68,7 +69,7 @@ void check_named(const StudyReport& report, const std::string& kind)
 
 }  // namespace
 
-TEST_CASE("an epsilon that is too small is named", "[report_defects]")
+TEST_CASE("an epsilon that is too small is identified", "[report_defects]")
 {
     const Scene scene = four_spheres(192, 192);
     const Subject defect = wrongly_lowered(
@@ -76,7 +77,7 @@ TEST_CASE("an epsilon that is too small is named", "[report_defects]")
     check_named(report_beside(scene, defect), "near start");
 }
 
-TEST_CASE("an epsilon that is too large is named", "[report_defects]")
+TEST_CASE("an epsilon that is too large is identified", "[report_defects]")
 {
     const Scene scene = four_spheres(192, 192);
     const Subject defect = wrongly_lowered(
@@ -84,7 +85,7 @@ TEST_CASE("an epsilon that is too large is named", "[report_defects]")
     check_named(report_beside(scene, defect), "near start");
 }
 
-TEST_CASE("a highlight's exponent that is off by one is named", "[report_defects]")
+TEST_CASE("a highlight's exponent that is off by one is identified", "[report_defects]")
 {
     const Scene scene = four_spheres(192, 192);
     const Subject defect = wrongly_lowered(scene, [](LoweredScene& s) {
@@ -94,25 +95,27 @@ TEST_CASE("a highlight's exponent that is off by one is named", "[report_defects
     check_named(report_beside(scene, defect), "highlight");
 }
 
-TEST_CASE("a culling slip that drops one ray in ten thousand is named", "[report_defects]")
+TEST_CASE("a culling defect that loses one ray in ten thousand is identified", "[report_defects]")
 {
     const Scene scene = four_spheres(384, 384);
     const Subject defect = packet_subject<float>(scene, lower(scene), planted::kernel_table(),
                                                  variant_named("defect", scene));
     const StudyReport report = report_beside(scene, defect);
     check_named(report, "lost hit");
-    // Of camera rays and mirrored ones, which are about as many.
+    // One in ten thousand of the camera rays and of the mirrored rays, which are about equally
+    // many.
     CHECK(report.runs[1].error.pixels_off <= 2 * report.runs[1].error.pixels / 5000);
 }
 
-TEST_CASE("a depth limit that is too low is named", "[report_defects]")
+TEST_CASE("a depth limit that is too low is identified", "[report_defects]")
 {
     const Scene scene = four_spheres(192, 192);
     const Subject defect = wrongly_lowered(scene, [](LoweredScene& s) { s.max_depth = 1; });
     check_named(report_beside(scene, defect), "deep");
 }
 
-TEST_CASE("errors of sampling sit where trees of a pixel's samples part", "[report_defects]")
+TEST_CASE("errors of sampling are where the ray trees of a pixel's samples differ",
+          "[report_defects]")
 {
     ReportScene scene{"four spheres", four_spheres(96, 96)};
     const ReportOptions options{.isas = {choose_isa().name},

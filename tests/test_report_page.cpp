@@ -32,7 +32,7 @@ std::string write_page(const TempFolder& folder)
     return (folder / "out" / "report.html").string();
 }
 
-/// Works the page as a user does and leaves what it saw in an element of its own.
+/// Operates the page as a user does, and writes the observations into an element.
 const std::string user = R"js(<script>
 addEventListener('load', async () => {
     const seen = {};
@@ -106,7 +106,7 @@ nlohmann::json what_was_seen(const std::string& dom)
 
 }  // namespace
 
-TEST_CASE("the page escapes what names contain", "[report_page]")
+TEST_CASE("the page escapes special characters in names", "[report_page]")
 {
     const TempFolder folder;
     const std::string page = read_text(write_page(folder));
@@ -114,7 +114,7 @@ TEST_CASE("the page escapes what names contain", "[report_page]")
     CHECK(page.find("<spheres>,") == std::string::npos);
 }
 
-TEST_CASE("the page says what the other files of a report say", "[report_page]")
+TEST_CASE("the page agrees with the other files of a report", "[report_page]")
 {
     const TempFolder folder;
     const std::string page = read_text(write_page(folder));
@@ -138,7 +138,8 @@ TEST_CASE("the page shows its pictures without a script", "[report_page]")
     CHECK(pictures == 2);
 }
 
-TEST_CASE("no id occurs twice on the page, and what plots refer to is there", "[report_page]")
+TEST_CASE("no id occurs twice on the page, and every reference of the plots exists",
+          "[report_page]")
 {
     const TempFolder folder;
     const std::string page = read_text(write_page(folder));
@@ -176,8 +177,8 @@ TEST_CASE("the page opens in a browser without an error, and its slider and plot
     std::string page = read_text(file);
     page.replace(page.rfind("</body>"), 7, user);
     write_text(file, page);
-    // The browser's virtual time runs on while pictures are decoded: on a busy machine it may be
-    // over before the page is done.
+    // The browser's virtual time continues while pictures are decoded: on a busy machine it may end
+    // before the page is done.
     PageResult used = open_page(name, folder, file);
     for (int again = 0; again < 3 && used.dom.find(seen_start) == std::string::npos; ++again)
         used = open_page(name, folder, file);
@@ -195,7 +196,7 @@ TEST_CASE("the page opens in a browser without an error, and its slider and plot
     CHECK(seen["names"][0] == "truth");
     for (const auto& entry : seen["names"])
         CHECK(entry.get<std::string>().find(".png") == std::string::npos);
-    // A heat map on the right alone at first; then on the left as well.
+    // At first only the picture on the right is a heat map; later both are.
     CHECK(seen["scales"] == nlohmann::json{false, true});
     CHECK(seen["scaleOfLeft"] == true);
     CHECK(seen["most"] > 0.0);
@@ -212,7 +213,7 @@ TEST_CASE("the page opens in a browser without an error, and its slider and plot
     CHECK(seen["shownAgain"] == true);
 }
 
-TEST_CASE("a page with an error is found out", "[report_page][slow]")
+TEST_CASE("a page with an error is detected", "[report_page][slow]")
 {
     const std::string name = browser();
     REQUIRE(!name.empty());  // apt-get install chromium

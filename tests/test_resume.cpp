@@ -38,14 +38,14 @@ public:
         return run_packtrace(words(picture, more, scene));
     }
 
-    /// Kills a run with --resume once it has finished `bands`, and makes sure that it was not done.
-    /// One thread leaves it time enough.
+    /// Kills a run with --resume once it has finished `bands`, and checks that it was not done.
+    /// With one thread there is enough time.
     void interrupt(const std::string& picture, long bands, int signal = SIGKILL) const
     {
         Words all = words(picture, {"--resume", "--threads", "1"});
         all.insert(all.begin(), PACKTRACE_CLI);
         const auto part = folder / (picture + ".part");
-        // The picture's file comes after the head of its journal.
+        // The picture's file is created after the head of its journal.
         const int status = kill_program(all, signal, [&] {
             return lines_of(folder / (picture + ".journal")) >= 2 + bands &&
                    std::filesystem::exists(part);
@@ -90,12 +90,12 @@ TEST_CASE("a resumed picture is the one that was not interrupted", "[resume]")
             CHECK_FALSE(std::filesystem::exists(studio.folder / (picture + ".part")));
             CHECK_FALSE(std::filesystem::exists(studio.folder / (picture + ".journal")));
         }
-        // No temporary file is left either.
+        // The folder has no temporary file either.
         CHECK(studio.folder.names().size() == 2 + 4);
     }
 }
 
-TEST_CASE("a run with --resume that nobody interrupts leaves the picture alone", "[resume]")
+TEST_CASE("an uninterrupted run with --resume leaves only the picture", "[resume]")
 {
     const Studio studio;
     CHECK(studio.render("a.png", {"-q", "--resume", "--spp", "2"}).exit_code == 0);
@@ -104,7 +104,7 @@ TEST_CASE("a run with --resume that nobody interrupts leaves the picture alone",
     CHECK((studio.folder.names() == Words{"a.png", "b.png", "one.scene", "other.scene"}));
 }
 
-TEST_CASE("an interrupted picture says how far it came", "[resume]")
+TEST_CASE("an interrupted picture reports how far it came", "[resume]")
 {
     const Studio studio;
     const std::string picture = (studio.folder / "a.png").string();
@@ -114,7 +114,7 @@ TEST_CASE("an interrupted picture says how far it came", "[resume]")
     CHECK(studio.render("a.png").exit_code == 0);
 }
 
-TEST_CASE("a picture begun otherwise is not gone on with", "[resume]")
+TEST_CASE("a picture begun with other options is not continued", "[resume]")
 {
     struct Other {
         Words words;
@@ -158,7 +158,7 @@ TEST_CASE("a picture begun otherwise is not gone on with", "[resume]")
     CHECK_THAT(studio.render("a.png").err, ContainsSubstring("is not a journal"));
 }
 
-TEST_CASE("bands that are damaged or cut short are rendered again", "[resume]")
+TEST_CASE("damaged and truncated bands are rendered again", "[resume]")
 {
     const Studio studio;
     REQUIRE(studio.render("whole.pfm", {"-q"}).exit_code == 0);
@@ -186,7 +186,7 @@ TEST_CASE("bands that are damaged or cut short are rendered again", "[resume]")
     CHECK(studio.same("a.pfm", "whole.pfm"));
 }
 
-TEST_CASE("a journal that ends before its head counts for none", "[resume]")
+TEST_CASE("a journal that ends within its head is ignored", "[resume]")
 {
     const Studio studio;
     REQUIRE(studio.render("whole.png", {"-q"}).exit_code == 0);
@@ -210,7 +210,7 @@ TEST_CASE("runs that begin and end at once leave one whole picture and no journa
     const std::string run =
         shell_quoted(PACKTRACE_CLI) + " render " + shell_quoted(four_spheres_file) +
         " --size 16x16 --threads 1 -q --resume -o " + shell_quoted((folder / "a.png").string());
-    // Each of many shells starts one run after the other, so that some begin as others end.
+    // Each of many shells starts run after run, so that some begin as others end.
     const std::string each = "for run in $(seq 20); do " + run + "; echo exit $?; done";
     const ProgramResult all = run_command(
         {"sh", "-c",

@@ -1,4 +1,4 @@
-// Several samples a pixel, everywhere or where there is contrast.
+// Several samples per pixel, everywhere or only at high contrast.
 #include "catch.hpp"
 #include "image/contrast.hpp"
 #include "image/pixel_error.hpp"
@@ -30,7 +30,7 @@ Image<Real> centre_picture(Scene scene, RenderOptions options)
     return render<Real>(scene, options);
 }
 
-/// Every neighbour, one by one.
+/// Compares a pixel with every neighbour, one by one.
 template <class Real>
 bool differs_from_a_neighbour(const Image<Real>& image, int x, int y, double threshold)
 {
@@ -50,7 +50,7 @@ bool same_pixel(const Image<Real>& a, const Image<Real>& b, int x, int y)
     return std::equal(a.pixel(x, y), a.pixel(x, y) + 3, b.pixel(x, y));
 }
 
-/// How many pixels differ by more than `limit` in a channel.
+/// The number of pixels that differ by more than `limit` in a channel.
 int count_off(const Image<double>& a, const Image<double>& b, double limit)
 {
     int count = 0;
@@ -65,7 +65,7 @@ int count_off(const Image<double>& a, const Image<double>& b, double limit)
 
 }  // namespace
 
-TEST_CASE("samples lie in the pixel, around its centre, on a grid", "[sampling]")
+TEST_CASE("samples are in the pixel, around its centre, on a grid", "[sampling]")
 {
     for (int count = 1; count <= 1024; ++count) {
         const std::vector<Vec2> pattern = sample_pattern(count);
@@ -86,7 +86,7 @@ TEST_CASE("samples lie in the pixel, around its centre, on a grid", "[sampling]"
     CHECK((sample_pattern(1).front() == Vec2(0.5)));
 }
 
-TEST_CASE("each row and column of a pixel has its sample", "[sampling]")
+TEST_CASE("each row and column of a pixel has exactly one sample", "[sampling]")
 {
     for (const int count : {1, 4, 7, 16, 100, 256}) {
         std::set<int> columns;
@@ -130,10 +130,10 @@ TEST_CASE("packets take the reference's samples", "[sampling]")
             const auto packets = render<double>(named.scene, options);
             const Comparison error = compare(packets, expected);
             CAPTURE(named.name, options.samples, error.max_abs);
-            // The room's seams go through the middle of the picture, where of these only the centre
-            // samples of adaptive sampling lie. A contrast right at the threshold may fall to
-            // either side of it, and the pixel then has more samples by one kernel than by the
-            // other.
+            // The room's seams pass through the middle of the picture, where only adaptive sampling
+            // puts samples: its first sample is at a pixel's centre. The contrast there may round
+            // to either side of the threshold, and then the kernels take different numbers of
+            // samples.
             if (options.adaptive)
                 CHECK(count_off(packets, expected, 1e-3) <= 2);
             else
@@ -160,8 +160,8 @@ TEMPLATE_TEST_CASE("sampled pictures are the same for every width and number of 
     }
 }
 
-TEMPLATE_TEST_CASE("adaptive pixels are those of all samples, or of the centre", "[sampling]",
-                   float, double)
+TEMPLATE_TEST_CASE("adaptive pixels equal those of all samples, or those of the centre",
+                   "[sampling]", float, double)
 {
     const Scene scene = four_spheres(117, 85);
     for (const Kernel kernel : {Kernel::packet, Kernel::scalar}) {
@@ -185,7 +185,7 @@ TEMPLATE_TEST_CASE("adaptive pixels are those of all samples, or of the centre",
     }
 }
 
-TEST_CASE("more samples are nearer to the mean of very many", "[sampling]")
+TEST_CASE("more samples are closer to the mean of very many", "[sampling]")
 {
     const Scene scene = four_spheres(160, 120);
     const auto truth = render<double>(scene, sampled(1024));
@@ -230,7 +230,7 @@ TEST_CASE("impossible sampling is refused", "[sampling]")
     }
 }
 
-TEST_CASE("render takes samples a pixel", "[sampling][sampling_cli]")
+TEST_CASE("render takes a number of samples per pixel", "[sampling][sampling_cli]")
 {
     const TempFolder folder;
     const auto rendered = [&](const std::vector<std::string>& options) {
@@ -248,7 +248,7 @@ TEST_CASE("render takes samples a pixel", "[sampling][sampling_cli]")
     CHECK(rendered({"--adaptive", "0.1"}) != rendered({"--spp", "16"}));
 }
 
-TEST_CASE("render refuses sampling that is wrong use", "[sampling][sampling_cli]")
+TEST_CASE("render refuses invalid sampling options", "[sampling][sampling_cli]")
 {
     const auto message = [](const std::vector<std::string>& options) {
         std::vector<std::string> words{"render", four_spheres_file, "-o", "/dev/null/a.png"};

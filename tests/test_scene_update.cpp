@@ -11,7 +11,7 @@
 #include <random>
 #include <vector>
 
-// RayScene::update(): moved objects are answered as by a RayScene made anew, bit for bit.
+// RayScene::update(): moved objects get the answers of a new RayScene, bit for bit.
 namespace packtrace::test {
 namespace {
 
@@ -33,7 +33,7 @@ public:
         add(packtrace::sphere({0, -5003, 0}, 5000));
     }
 
-    /// Moves every object of the first `count` by a little; returns their numbers.
+    /// Moves each of the first `count` objects a little; returns their numbers.
     std::vector<std::int32_t> step(std::size_t count, double size = 0.05)
     {
         std::vector<std::int32_t> moved;
@@ -85,7 +85,7 @@ std::vector<Ray<Real>> rays_about(std::size_t count)
     return rays;
 }
 
-/// All that a RayScene says of some rays.
+/// All answers of a RayScene for some rays.
 template <class Real>
 struct Answers {
     std::vector<SurfaceHit<Real>> closest;
@@ -139,7 +139,7 @@ std::string refusal_of_update(RayScene<double>& rays, const Scene& scene,
 
 }  // namespace
 
-TEST_CASE("what moves in small steps is answered as if all were made anew", "[scene_update]")
+TEST_CASE("objects that move in small steps give the answers of a new scene", "[scene_update]")
 {
     for (const std::string& isa : supported_isas()) {
         CAPTURE(isa);
@@ -162,10 +162,10 @@ TEST_CASE("objects that cast no shadow move, too", "[scene_update]")
     CHECK(Answers<float>(moving, rays) == Answers<float>(RayScene<float>(swarm.scene), rays));
 }
 
-TEST_CASE("lights, and what casts shadows, stay those of the scene that was given first",
+TEST_CASE("lights, and the objects that cast shadows, stay those of the first scene",
           "[scene_update]")
 {
-    // Under a roof of many balls, and one large one that casts no shadow.
+    // Under a roof of many balls, and of one large ball that casts no shadow.
     Scene scene;
     for (int i = 0; i < 100; ++i)
         scene.objects.push_back(
@@ -203,8 +203,7 @@ TEST_CASE("lights, and what casts shadows, stay those of the scene that was give
     }
 }
 
-TEST_CASE("the hierarchy is built anew where objects change their kind or scatter",
-          "[scene_update]")
+TEST_CASE("the bvh is rebuilt when objects change their kind or scatter", "[scene_update]")
 {
     Swarm swarm;
     const auto rays = rays_about<double>(1000);
@@ -218,12 +217,12 @@ TEST_CASE("the hierarchy is built anew where objects change their kind or scatte
     };
     auto& objects = swarm.scene.objects;
     check(swarm.step(5), false);
-    // A sphere becomes an ellipsoid, and moves as one.
+    // A sphere becomes an ellipsoid and moves as one.
     objects[3] = packtrace::scale(std::move(objects[3]), Vec3(1, 2, 1));
     check({3}, true);
     objects[3] = packtrace::translate(std::move(objects[3]), Vec3(0.1, 0, 0));
     check({3}, false);
-    // Surfaces that no hierarchy holds.
+    // Surfaces that a bvh does not contain.
     objects[Swarm::movable] =
         packtrace::translate(std::move(objects[Swarm::movable]), Vec3(0, 1, 0));
     check({static_cast<std::int32_t>(Swarm::movable)}, true);
@@ -231,12 +230,12 @@ TEST_CASE("the hierarchy is built anew where objects change their kind or scatte
     check({0}, true);
     objects[0].surface = packtrace::sphere({0, 1, 0}, 0.1);
     check({0}, true);
-    // All over the place.
+    // Large steps scatter the objects.
     check(swarm.step(900, 1.0), true);
     check(swarm.step(900, 0.001), false);
 }
 
-TEST_CASE("an update finds what has moved by itself", "[scene_update]")
+TEST_CASE("an update finds the moved objects by itself", "[scene_update]")
 {
     Swarm swarm;
     const auto rays = rays_about<float>(1000);
@@ -244,7 +243,7 @@ TEST_CASE("an update finds what has moved by itself", "[scene_update]")
     CHECK_FALSE(moving.update(swarm.scene).rebuilt);
     (void)swarm.step(Swarm::movable);
     CHECK(moving.update(swarm.scene).rebuilt);
-    // The plane and the ground do not move, so that the hierarchy can go on.
+    // The plane and the ground do not move, so the bvh can be refitted.
     (void)swarm.step(Swarm::movable, 0.01);
     CHECK_FALSE(moving.update(swarm.scene).rebuilt);
     CHECK(Answers<float>(moving, rays) == Answers<float>(RayScene<float>(swarm.scene), rays));
@@ -265,7 +264,7 @@ TEST_CASE("the scalar kernel and scenes of few objects follow updates", "[scene_
     }
 }
 
-TEST_CASE("an update that can't be is refused, and all stays as it was", "[scene_update]")
+TEST_CASE("an invalid update is refused and changes nothing", "[scene_update]")
 {
     Swarm swarm;
     const auto rays = rays_about<double>(500);

@@ -41,7 +41,7 @@ TEST_CASE("double packets equal the double and the long double reference on ever
     }
 }
 
-TEST_CASE("in full size four spheres differ from long double where a ray is tangent alone",
+TEST_CASE("in full size four spheres differ from long double only where a ray is tangent",
           "[scenes][slow]")
 {
     Scene scene = read_scene(fs::path(PACKTRACE_SOURCE_DIR) / "scenes/four_spheres.scene");
@@ -52,7 +52,7 @@ TEST_CASE("in full size four spheres differ from long double where a ray is tang
         CAPTURE(isa);
         const Comparison doubles =
             compare(render_packets<double>(scene, isa), truth, {.threshold = 1e-9, .worst = 3});
-        // Rays that touch a sphere to the last digit: t there is known to half of the digits.
+        // Rays that touch a sphere to the last digit: half of the digits of t are certain there.
         CHECK(doubles.pixels_off <= 2);
         CHECK(doubles.max_abs < 1e-7);
         for (const PixelError& pixel : doubles.worst)

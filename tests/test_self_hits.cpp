@@ -1,5 +1,5 @@
 // SelfHits::exact: packets against the scalar reference, both by that rule, and rays that leave a
-// surface they are on.
+// surface they start on.
 #include "catch.hpp"
 #include "lab/harness/ray_trees.hpp"
 #include "lab/report/error_class.hpp"
@@ -48,7 +48,7 @@ void check_everywhere(const Scene& scene, const Check& check)
         }
 }
 
-/// A glass ball in a glass ball over a checkered floor: rays start on either side of surfaces.
+/// A glass ball inside a glass ball over a checkered floor: rays start on either side of surfaces.
 Scene glass_balls(ShadowKind shadows)
 {
     Scene scene;
@@ -68,7 +68,7 @@ Scene glass_balls(ShadowKind shadows)
     return scene;
 }
 
-/// One ray from a point of the unit ball's surface; `side` is what StartsView takes.
+/// A ray from a point on the unit ball's surface; `side` is the value for StartsView.
 struct Leaving {
     float t = 0.0f;
     std::int32_t object = -2;
@@ -99,8 +99,7 @@ TEST_CASE("by the exact rule packets of doubles give the double reference's pict
     }
 }
 
-TEST_CASE("the exact rule is the same for rays in glass, in packets and in the reference",
-          "[self_hits]")
+TEST_CASE("the exact rule applies to rays in glass, in packets and in the reference", "[self_hits]")
 {
     for (const ShadowKind shadows : {ShadowKind::none, ShadowKind::opaque, ShadowKind::transparent})
         for (const Traversal traversal : {Traversal::list, Traversal::tree}) {
@@ -115,9 +114,9 @@ TEST_CASE("the exact rule is the same for rays in glass, in packets and in the r
         }
 }
 
-TEST_CASE("by the note's rule nothing shadows a light that is nearer than 0.001", "[self_hits]")
+TEST_CASE("by the note's rule nothing shadows a light closer than 0.001", "[self_hits]")
 {
-    // A ball behind the light, as seen from a floor that is nearer than 0.001 to the light.
+    // A ball behind the light, seen from a floor closer than 0.001 to the light.
     Scene scene;
     set_size(scene, 32, 32);
     scene.illumination = Illumination::whitted;
@@ -147,7 +146,7 @@ TEST_CASE("by the note's rule nothing shadows a light that is nearer than 0.001"
         }
 }
 
-TEST_CASE("by the note's rule a lamp however far casts the shadows that are there", "[self_hits]")
+TEST_CASE("by the note's rule a lamp at any distance casts the right shadows", "[self_hits]")
 {
     const Scene scene = parse_scene(
         "image_size = 256 x 256  sphere { center = (-0.7, 0.5, 4.1)  radius = 0.6 } "
@@ -162,12 +161,12 @@ TEST_CASE("by the note's rule a lamp however far casts the shadows that are ther
             options.isa = isa;
             options.traversal = traversal;
             const auto picture = render<float>(scene, options);
-            // The shadow's own edge is a float's.
+            // The shadow's edge is computed in float.
             CHECK(compare(convert<double>(picture), truth).pixels_off <= 4);
         }
 }
 
-TEST_CASE("four spheres differ from long double at edges alone, by the exact rule", "[self_hits]")
+TEST_CASE("by the exact rule four spheres differ from long double only at edges", "[self_hits]")
 {
     const Scene scene = four_spheres(192, 192);
     const Image<long double> wide = scalar_exact<long double>(scene);
@@ -195,7 +194,7 @@ TEST_CASE("a ray that touches a ball to the last digit is mirrored off its outer
     }
 }
 
-TEST_CASE("where the gradient vanishes the normal is against the ray, in every kernel",
+TEST_CASE("where the gradient vanishes the normal points against the ray, in every kernel",
           "[self_hits]")
 {
     const Scene cone = parse_scene(
@@ -204,7 +203,7 @@ TEST_CASE("where the gradient vanishes the normal is against the ray, in every k
         "light { type = ambient intensity = 1 }"
         "cone { rotate = (1, 0, 0, 90) ambient = 0.25 diffuse = 0.5 }",
         "cone");
-    // The eye is on the cone's apex: rays start in it, mirrored ones and those to the light too.
+    // The eye is on the cone's apex: rays start there, and so do mirrored rays and shadow rays.
     Scene inside = parse_scene(
         "illumination = whitted  image_size = 100 x 100  ellipsoid { specular = 0.5 }  cone { }"
         "light { type = directional intensity = 1 direction = (0, 1, -1.36) }",
@@ -223,8 +222,7 @@ TEST_CASE("where the gradient vanishes the normal is against the ray, in every k
     check_everywhere(inside, check);
 }
 
-TEST_CASE("a ray that starts at a cone's apex along the axis does not meet the cone again",
-          "[self_hits]")
+TEST_CASE("a ray along the axis from a cone's apex does not hit the cone again", "[self_hits]")
 {
     const std::string place = GENERATE("", "translate = (0.25, -0.75, 1.125)");
     CAPTURE(place);
@@ -239,8 +237,7 @@ TEST_CASE("a ray that starts at a cone's apex along the axis does not meet the c
         scene, [](const auto& image) { CHECK(static_cast<double>(image.pixel(0, 0)[0]) == 0.25); });
 }
 
-TEST_CASE("a ray that leaves a capped cone's apex along the axis meets the cap behind it",
-          "[self_hits]")
+TEST_CASE("a ray along the axis from a capped cone's apex hits the cap behind it", "[self_hits]")
 {
     const std::string cone = GENERATE("cone { z_range = (-2, 2)", "cone { z_range = (-2, 0.5)",
                                       "cone { z_range = (-2, 2) scale = (3, 0.125, 1)");
@@ -250,13 +247,13 @@ TEST_CASE("a ray that leaves a capped cone's apex along the axis meets the cap b
         "camera { position = (0, 0, -1) } light { type = ambient intensity = 1 }" +
             cone + " capped = yes ambient = 0.25 reflect = 0.5 }",
         "capped");
-    // The apex, the cap behind the eye, and so on.
+    // The apex, then the cap behind the eye, and so on.
     check_everywhere(scene, [](const auto& image) {
         CHECK(static_cast<double>(image.pixel(0, 0)[0]) == 0.484375);
     });
 }
 
-TEST_CASE("a ray that only touches a body of glass goes in and out once", "[self_hits]")
+TEST_CASE("a ray that only touches a body of glass enters and leaves it once", "[self_hits]")
 {
     const std::string body = GENERATE(
         "sphere { center = (1, 0, 5) radius = 1",
@@ -273,7 +270,7 @@ TEST_CASE("a ray that only touches a body of glass goes in and out once", "[self
         scene, [](const auto& image) { CHECK(static_cast<double>(image.pixel(0, 0)[0]) == 0.75); });
 }
 
-TEST_CASE("a ray that leaves a ball meets it again only from inside, however shallow",
+TEST_CASE("a ray that leaves a ball hits it again only from inside, at however small an angle",
           "[self_hits]")
 {
     Scene scene{.objects = {lab::sphere_object({0, 0, 0}, 1.0)}};
@@ -283,12 +280,12 @@ TEST_CASE("a ray that leaves a ball meets it again only from inside, however sha
         CAPTURE(fall);
         const glm::vec3 down{std::sqrt(1.0f - fall * fall), -fall, 0};
         const glm::vec3 up{down.x, fall, 0};
-        // The start itself is no hit even where it is not lifted off the surface.
+        // The start itself does not count as a hit, even without an offset from the surface.
         const Leaving inside = leave_ball(balls, top, top, down, ~0);
         CHECK(inside.object == 0);
         CHECK(inside.t == Approx(2.0f * fall));
         CHECK(leave_ball(balls, top, top, up, 0).object == -1);
-        // A little outside or inside by rounding, in any direction: the side decides.
+        // Rounding puts the start a little outside or inside, with any direction: the side decides.
         const glm::vec3 off{0, 1.0000002f, 0};
         CHECK(leave_ball(balls, off, off, down, 0).object == -1);
         CHECK(leave_ball(balls, off, off, up, ~0).object == 0);
@@ -296,7 +293,8 @@ TEST_CASE("a ray that leaves a ball meets it again only from inside, however sha
     CHECK(leave_ball(balls, {0, 3, 0}, {0, 0, 0}, {0, -1, 0}, no_start).t == 2.0f);
 }
 
-TEST_CASE("a saddle is met again from where it bends away", "[self_hits]")
+TEST_CASE("a ray from a saddle hits it again where the saddle curves towards the ray",
+          "[self_hits]")
 {
     Scene scene;
     Object object{.surface = Quadric{.kind = QuadricKind::saddle,
@@ -307,14 +305,14 @@ TEST_CASE("a saddle is met again from where it bends away", "[self_hits]")
     const glm::vec3 start{1, 0, 1};
     for (const std::int32_t side : {0, ~0}) {
         const Leaving found = leave_ball(scenes, start, start, {-1, 0, 0.5f}, side);
-        // Only one side is the one the ray goes to; z above x² - y² is inside.
+        // Only one of the sides is the side that the ray enters; z above x² - y² is inside.
         CHECK(found.object == (side == 0 ? -1 : 0));
         if (side != 0)
             CHECK(found.t == Approx(2.5f));
     }
 }
 
-TEST_CASE("a ray leaves whichever of two spheres is nearer, by lists and by a hierarchy",
+TEST_CASE("a ray hits the nearer of two spheres after leaving one, by lists and by a bvh",
           "[self_hits]")
 {
     constexpr std::size_t count = 300;
@@ -323,7 +321,7 @@ TEST_CASE("a ray leaves whichever of two spheres is nearer, by lists and by a hi
             const Scene scene{.objects = {lab::sphere_object({0, 0, 0}, 1.0),
                                           moved ? lab::sphere_object({0, 0, gap}, 1.0)
                                                 : lab::sphere_object({0, 0, 0}, 1.0 - gap)}};
-            // Inwards from the first, most of them at a shallow angle.
+            // Inwards from the first sphere, most at a small angle to its surface.
             std::mt19937 random(21);
             std::uniform_real_distribution<double> unit(-1.0, 1.0);
             std::array<std::vector<float>, 3> point, org, dir;

@@ -55,7 +55,7 @@ public:
 
 }  // namespace
 
-TEST_CASE("joined shards of rays are the file of all rays", "[shard]")
+TEST_CASE("joined shards of rays equal the file of all rays", "[shard]")
 {
     const Bench bench(5000);
     for (const Words& query : {Words{}, Words{"--all"}, Words{"--any"}, Words{"--all", "--bounds"}})
@@ -63,7 +63,7 @@ TEST_CASE("joined shards of rays are the file of all rays", "[shard]")
             CAPTURE(query, count);
             REQUIRE(bench.intersect("whole.csv", query).exit_code == 0);
             Words parts;
-            // In any order.
+            // Shards may run in any order.
             for (int i = count - 1; i >= 0; --i) {
                 Words more = query;
                 more.insert(more.end(),
@@ -76,7 +76,7 @@ TEST_CASE("joined shards of rays are the file of all rays", "[shard]")
         }
 }
 
-TEST_CASE("parts of scenes that differ in their cameras are joined", "[shard]")
+TEST_CASE("parts of scenes with different cameras are joined", "[shard]")
 {
     const Bench bench(50);
     REQUIRE(bench.intersect("whole.csv", {}).exit_code == 0);
@@ -100,7 +100,7 @@ TEST_CASE("more shards than rays leave some empty", "[shard]")
     }
     CHECK(bench.join(parts, "joined.csv").exit_code == 0);
     CHECK(bench.same("joined.csv", "whole.csv"));
-    // More parts than the system lets a program open files.
+    // More parts than the files that the system lets a program open.
     CHECK(bench.join(parts, "joined.csv", "ulimit -n 20;").exit_code == 0);
     CHECK(bench.same("joined.csv", "whole.csv"));
 }
@@ -165,7 +165,7 @@ TEST_CASE("join refuses standard input as a part", "[shard]")
     CHECK_THAT(result.err, ContainsSubstring("'-' is not a file; parts are read twice"));
 }
 
-TEST_CASE("parts that are cut or changed are not joined", "[shard]")
+TEST_CASE("truncated and changed parts are not joined", "[shard]")
 {
     const Bench bench(500);
     for (const std::string i : {"0", "1"})
@@ -192,7 +192,7 @@ TEST_CASE("parts that are cut or changed are not joined", "[shard]")
     CHECK(bench.join({"p0", "p1"}, "joined.csv").exit_code == 0);
 }
 
-TEST_CASE("a shard is one of its number", "[shard]")
+TEST_CASE("a shard is one of a number of shards", "[shard]")
 {
     const Bench bench(5);
     for (const std::string shard : {"3/3", "-1/3", "1", "1/0", "a/b", "0/3x", "0/9999999"}) {
@@ -211,7 +211,7 @@ TEST_CASE("a shard is one of its number", "[shard]")
     CHECK(run_packtrace({"stress", "--shard", "0/2"}).exit_code == 2);
 }
 
-TEST_CASE("shards of an animation are all of its frames", "[shard]")
+TEST_CASE("the shards of an animation contain all of its frames", "[shard]")
 {
     const TempFolder folder;
     write_text(folder / "a.scene",
@@ -250,7 +250,7 @@ TEST_CASE("joined shards of a stress test have the rows and the verdict of the w
         join.insert(join.begin() + 1, folder / i);
     }
     auto joined = nlohmann::ordered_json::parse(run_packtrace(join).out);
-    // Times differ from run to run, and with them who is best.
+    // Times differ from run to run, and therefore the best subject too.
     for (auto* const json : {&whole, &joined})
         for (auto& row : (*json)["rows"]) {
             row["ns_per_ray"] = 0;
@@ -276,7 +276,7 @@ TEST_CASE("joined shards of a stress test have the rows and the verdict of the w
     edited.replace(edited.find("\"wrong\": 0"), 10, "\"wrong\": 5");
     write_text(folder / "edited", edited);
     refused({"join", folder / "0", folder / "edited", folder / "2"}, "is cut or was changed");
-    // Rows of another program, whose checksum is right.
+    // Rows of another program with a correct checksum.
     auto foreign = nlohmann::ordered_json::parse(read_text(folder / "1"));
     foreign["rows"][0]["precision"] = "half";
     foreign.erase("checksum");
@@ -284,12 +284,12 @@ TEST_CASE("joined shards of a stress test have the rows and the verdict of the w
     write_text(folder / "foreign", json_text(foreign));
     refused({"join", folder / "0", folder / "foreign", folder / "2"},
             "has a row that stress did not write: 'half' is no precision");
-    // JSON that is nested without end.
+    // Deeply nested JSON.
     constexpr int deep = 200'000;
     write_text(folder / "deep", R"({"shard": "1/3", "rows": )" + std::string(deep, '[') +
                                     std::string(deep, ']') + "}");
     refused({"join", folder / "0", folder / "deep", folder / "2"}, "is no part");
-    // No more than that, its checksum right.
+    // Only these two fields, with a correct checksum.
     nlohmann::ordered_json bare{{"shard", "1/3"}, {"rows", nlohmann::ordered_json::array()}};
     bare["checksum"] = checksum(bytes_of(json_text(bare)));
     write_text(folder / "bare", json_text(bare));
@@ -298,7 +298,7 @@ TEST_CASE("joined shards of a stress test have the rows and the verdict of the w
     refused(join, "is missing");
 }
 
-TEST_CASE("hits are resumed from the last whole block", "[shard]")
+TEST_CASE("intersect resumes after the last complete block", "[shard]")
 {
     const Bench bench(60000);
     for (const Words& query : {Words{"--threads", "1"}, Words{"--all", "--shard", "1/2"}}) {

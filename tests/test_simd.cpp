@@ -1,5 +1,5 @@
-// Every operation of the kernels' simd.hpp, on every instruction set the machine has, against
-// plain scalar code.
+// Every operation of the kernels' simd.hpp on every instruction set of the machine, against plain
+// scalar code.
 #include "catch.hpp"
 #include "simd_scalar.hpp"
 #include "simd_whole.hpp"
@@ -43,7 +43,7 @@ std::string mismatch(const Lane<Real>& in, Value got, Value expected)
     return text.str();
 }
 
-/// The first lane of all that is wrong, in words; empty when none is.
+/// A description of the first wrong lane; empty if no lane is wrong.
 template <class Real>
 std::string first_wrong(const abi::KernelTable& table, const RealOp<Real>& op)
 {
@@ -79,7 +79,7 @@ std::string first_wrong(const abi::KernelTable& table, const IntOp<Real>& op)
     return wrong;
 }
 
-/// `expected` may be shorter: what the operation leaves in further lanes is not specified.
+/// `expected` may be shorter: the values in further lanes are not specified.
 template <class Real>
 bool starts_with(PacketResult<Real> got, const PacketResult<Real>& expected)
 {
@@ -111,7 +111,7 @@ void check_everywhere(const std::vector<Op>& ops)
         }
 }
 
-/// A madd b, c where a * b + c is 0 in two roundings, and -2^-2k in one.
+/// Operands of madd for which a * b + c is 0 in two roundings, and -2^-2k in one.
 template <class Real>
 Packet<Real> needs_fusing(int lanes)
 {
@@ -160,7 +160,7 @@ TEMPLATE_TEST_CASE("madd rounds once on machines with fused multiply-add, else t
     }
 }
 
-TEMPLATE_TEST_CASE("every operation has a test, and one only", "[simd]", float, double)
+TEMPLATE_TEST_CASE("every operation has exactly one test", "[simd]", float, double)
 {
     std::multiset<abi::SimdOp> tested;
     for (const auto& op : arithmetic_ops<TestType>())

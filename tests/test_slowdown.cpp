@@ -1,4 +1,4 @@
-// Verdicts on samples that nobody measured.
+// Verdicts on synthetic samples.
 #include "catch.hpp"
 #include "lab/bench/slowdown.hpp"
 
@@ -10,7 +10,7 @@ namespace packtrace::test {
 namespace {
 
 /// Times of a busy machine around `center`: most within a few per cent, every fifth far longer.
-/// `spell` is a busy spell that lasts as long as they do.
+/// `spell` is the factor of a busy spell that covers all samples.
 std::vector<double> busy_samples(std::mt19937& random, std::size_t count, double center,
                                  double spell = 1.0)
 {
@@ -28,7 +28,7 @@ std::vector<double> nine(double value)
     return std::vector<double>(9, value);
 }
 
-/// Of how many trials the verdict is `verdict`.
+/// The number of trials whose verdict is `verdict`.
 template <class Trial>
 int count_of(Verdict verdict, int trials, const Trial& trial)
 {
@@ -40,10 +40,12 @@ int count_of(Verdict verdict, int trials, const Trial& trial)
 
 }  // namespace
 
-TEST_CASE("the median lies between the samples that coins say", "[slowdown]")
+TEST_CASE("the median is between the order statistics that the binomial distribution gives",
+          "[slowdown]")
 {
     const std::vector<double> values{5, 3, 8, 1, 9, 2, 7, 4, 6, 10, 11};
-    // Fewer than 2 heads of 11: 12 in 2048, more than half of a hundredth; none: 1.
+    // The probability of fewer than 2 heads in 11 throws is 12 in 2048, more than half of a
+    // hundredth; of no heads: 1 in 2048.
     CHECK(median_interval(values)->low == 1.0);
     CHECK(median_interval(values)->high == 11.0);
     std::vector<double> many;
@@ -54,11 +56,11 @@ TEST_CASE("the median lies between the samples that coins say", "[slowdown]")
     CHECK(median_interval(std::vector<double>(8, 1.0)));
     CHECK_FALSE(median_interval(std::vector<double>(7, 1.0)));
     CHECK_FALSE(median_interval({}));
-    // Also where half to that power is hardly a number.
+    // Even if 0.5 to that power is nearly too small for a number.
     CHECK(median_interval(std::vector<double>(1000, 3.0))->low == 3.0);
 }
 
-TEST_CASE("a shift lies between differences of all pairs", "[slowdown]")
+TEST_CASE("a shift is between differences of all pairs", "[slowdown]")
 {
     std::vector<double> a, b;
     for (int i = 0; i < 9; ++i) {
@@ -76,7 +78,7 @@ TEST_CASE("a shift lies between differences of all pairs", "[slowdown]")
     CHECK_FALSE(shift_interval({}, b));
 }
 
-TEST_CASE("intervals hold the truth as often as they say", "[slowdown]")
+TEST_CASE("intervals contain the truth as often as promised", "[slowdown]")
 {
     std::mt19937 random(7);
     int paired = 0;
@@ -106,7 +108,7 @@ TEST_CASE("equal programs are never called slower, however busy the machine", "[
     CHECK(slower_apart == 0);
 }
 
-TEST_CASE("a spell that falls on both of a pair takes nothing from the verdict", "[slowdown]")
+TEST_CASE("a busy spell during both programs of a pair does not change the verdict", "[slowdown]")
 {
     std::vector<double> now, before;
     for (const double spell : {1.0, 1.0, 3.0, 2.0, 1.0, 7.0, 1.5, 1.0, 4.0}) {
@@ -116,11 +118,11 @@ TEST_CASE("a spell that falls on both of a pair takes nothing from the verdict",
     CHECK(paired_slowdown(now, before).estimate == Approx(0.05));
     CHECK(verdict_of(paired_slowdown(now, before), 0.1) == Verdict::not_slower);
     CHECK(verdict_of(paired_slowdown(now, before), 0.04) == Verdict::slower);
-    // Apart, nobody knows.
+    // The unpaired comparison cannot decide.
     CHECK(verdict_of(unpaired_slowdown(now, before), 0.04) == Verdict::cannot_tell);
 }
 
-TEST_CASE("a program that takes twice as long is found out, even on a busy machine", "[slowdown]")
+TEST_CASE("a program that takes twice as long is detected, even on a busy machine", "[slowdown]")
 {
     std::mt19937 random(3);
     CHECK(count_of(Verdict::slower, 100, [&] {
@@ -131,7 +133,7 @@ TEST_CASE("a program that takes twice as long is found out, even on a busy machi
           }) == 100);
 }
 
-TEST_CASE("the verdict is by the whole interval, not by its middle", "[slowdown]")
+TEST_CASE("the verdict depends on the whole interval, not on its middle", "[slowdown]")
 {
     const auto of = [](double low, double high) {
         return verdict_of({0.2, Interval{low, high}}, 0.1);

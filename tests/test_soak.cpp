@@ -1,4 +1,4 @@
-// Random scenes in every way there is, and what is done with a finding.
+// Random scenes traced in every way, and the processing of findings.
 #include "catch.hpp"
 #include "killed_program.hpp"
 #include "lab/soak/soak.hpp"
@@ -21,8 +21,8 @@ namespace {
 
 constexpr double roundoff_of_floats = 0x1p-24;
 
-/// What is wrong with the answers of `exact` packets of floats to rays, in every way there is: that
-/// of the first ray in each that any is wrong of.
+/// The faults of exact packets of floats on these rays, in all ways of tracing. For each way, only
+/// the fault of the first wrong ray.
 std::string faults_in_all_ways(const Scene& scene, const std::vector<lab::StressRay>& rays)
 {
     lab::StressGroup group = lab::stress_group(scene);
@@ -49,9 +49,9 @@ std::string faults_in_all_ways(const Scene& scene, const std::vector<lab::Stress
 
 }  // namespace
 
-TEST_CASE("random scenes give the answers that are promised in every way", "[soak]")
+TEST_CASE("random scenes give correct answers in every way of tracing", "[soak]")
 {
-    // Some pictures are made by three threads, also where the machine has fewer.
+    // Some pictures are rendered by three threads, even if the machine has fewer.
     const tbb::global_control threads(tbb::global_control::max_allowed_parallelism, 3);
     const lab::SoakOptions options{.scenes = 64};
     std::string findings;
@@ -64,7 +64,7 @@ TEST_CASE("random scenes give the answers that are promised in every way", "[soa
     CHECK(counts.refused <= 16);
 }
 
-TEST_CASE("scenes of earlier findings show nothing", "[soak]")
+TEST_CASE("scenes of earlier findings have no faults", "[soak]")
 {
     const tbb::global_control threads(tbb::global_control::max_allowed_parallelism, 3);
     struct Earlier {
@@ -74,20 +74,20 @@ TEST_CASE("scenes of earlier findings show nothing", "[soak]")
     };
     for (const auto& [seed, number, aligned] : {
              Earlier{9001, 533},    // a cap of a quadric whose centre is far away
-             Earlier{9001, 2565},   // a light nearer than where the note's shadow rays start
-             Earlier{4242, 434},    // a sphere and a direction of 1e-9
+             Earlier{9001, 2565},   // a light closer than where the note's shadow rays start
+             Earlier{4242, 434},    // a sphere and a direction of length 1e-9
              Earlier{4242, 2686},   // as 533
              Earlier{4242, 12485},  // as 2565
-             Earlier{4242, 13446},  // a ray that nearly runs along a saddle, and starts next to it
+             Earlier{4242, 13446},  // a ray that runs nearly along a saddle and starts next to it
              Earlier{4242, 28648},  // a hit near a long hyperboloid's side, far from its centre
              Earlier{4242, 29921},  // as 28648
              Earlier{4242, 44944},  // a checker too fine for single precision, far away
-             Earlier{4242, 16800},  // an eye in an open quadric of glass, and in more glass
+             Earlier{4242, 16800},  // an eye inside an open quadric of glass and inside more glass
              Earlier{4242, 17416},  // as 16800
-             Earlier{4242, 18344},  // a ray within the plane of a polygon
-             Earlier{4242, 83511},  // light from a direction along a plane
-             Earlier{4242, 10989},  // `fast` makes up a second hit below its resolution
-             Earlier{7777, 6354},   // a light near two planes that cross, on neither
+             Earlier{4242, 18344},  // a ray in the plane of a polygon
+             Earlier{4242, 83511},  // directional light along a plane
+             Earlier{4242, 10989},  // `fast` invents a second hit below its resolution
+             Earlier{7777, 6354},   // a light near two intersecting planes, on neither
              Earlier{7778, 23308, true},  // twins at 0 and -0
          }) {
         lab::SoakOptions options{.seed = seed, .first = number, .scenes = 1};
@@ -100,7 +100,7 @@ TEST_CASE("scenes of earlier findings show nothing", "[soak]")
     }
 }
 
-TEST_CASE("scenes of a soak follow from seed and number", "[soak]")
+TEST_CASE("scenes of a soak depend only on seed and number", "[soak]")
 {
     lab::StressRandom first(7);
     lab::StressRandom second(7);
@@ -111,7 +111,7 @@ TEST_CASE("scenes of a soak follow from seed and number", "[soak]")
     CHECK(first.bits() == second.bits());
 }
 
-TEST_CASE("a finding is shrunk to what shows it", "[soak]")
+TEST_CASE("a finding is reduced to the objects that show it", "[soak]")
 {
     const Scene scene = parse_scene(R"(
         illumination = general  max_depth = 5
@@ -139,7 +139,8 @@ TEST_CASE("a finding is shrunk to what shows it", "[soak]")
     CHECK(std::get<Sphere>(small.objects[0].surface).center.x == 0.123);
 }
 
-TEST_CASE("a cap of a general quadric is held to what its far centre leaves of digits", "[soak]")
+TEST_CASE("a cap of a general quadric is as exact as the digits that its far centre leaves",
+          "[soak]")
 {
     // The centre is about 1700 away, and the ray starts next to the cap.
     const Scene scene = parse_scene(R"(
@@ -163,7 +164,7 @@ TEST_CASE("a cap of a general quadric is held to what its far centre leaves of d
 
 TEST_CASE("a hit on a long hyperboloid keeps its digits far from the centre", "[soak]")
 {
-    // The centre is 600000 away, and the ray's point nearest to it is at t = -10⁷.
+    // The centre is 600000 away, and the ray's closest point to it is at t = -10⁷.
     const Scene near = parse_scene(R"(
         quadric {
             coefficients = (0, 0, 0.20916609758149107, 0.0037555573918224283, 1.7440348060678352, 0,
@@ -177,7 +178,7 @@ TEST_CASE("a hit on a long hyperboloid keeps its digits far from the centre", "[
                                {-0.01663760282099247, 0.027004577219486237, -0.023907508701086044},
                                0.0,
                                lab::no_end}}) == "");
-    // The same of a quadric placed by a matrix.
+    // The same quadric, placed by a matrix.
     const Scene placed = parse_scene(R"(
         quadric {
             coefficients = (1.2057151840844114, 0, 0.11140713487581122, 0, -1.6491139787348126,
@@ -193,7 +194,7 @@ TEST_CASE("a hit on a long hyperboloid keeps its digits far from the centre", "[
                                        lab::no_end}}) == "");
 }
 
-TEST_CASE("quadrics whose centres are far are hit where their equations say", "[soak]")
+TEST_CASE("quadrics whose centres are far away are hit where their equations say", "[soak]")
 {
     lab::StressRandom random(28648);
     for (int i = 0; i < 40; ++i) {
@@ -246,7 +247,7 @@ TEST_CASE("the smallest spheres are hit by rays of the shortest directions", "[s
     }
 }
 
-TEST_CASE("normals of spheres that are seen from afar are of unit length", "[soak]")
+TEST_CASE("normals of spheres seen from far away have unit length", "[soak]")
 {
     lab::StressRandom random(21);
     // A sphere off the world's origin, and an anchored one.
@@ -259,7 +260,7 @@ TEST_CASE("normals of spheres that are seen from afar are of unit length", "[soa
         lab::round_to_precision<float>(scene);
         lab::StressGroup group = lab::stress_group(scene);
         for (int i = 0; i < 200; ++i) {
-            // At t = 1 the ray is where x = 0, inside the sphere: org and dir round alike.
+            // At t = 1 the ray is at x = 0, inside the sphere: org and dir are rounded alike.
             const double x = random.power(1e6, 1e13);
             const double turn = random.between(0.0, 6.0);
             const double off = radius * random.between(0.0, 0.8);
@@ -290,7 +291,7 @@ TEST_CASE("normals of spheres that are seen from afar are of unit length", "[soa
     }
 }
 
-TEST_CASE("soak checks scenes of a file, and random ones", "[soak]")
+TEST_CASE("soak checks the scenes of a file, and random ones", "[soak]")
 {
     const ProgramResult file = run_packtrace({"soak", four_spheres_file});
     CHECK(file.exit_code == 0);
@@ -310,13 +311,13 @@ TEST_CASE("soak checks scenes of a file, and random ones", "[soak]")
     CHECK(run_packtrace({"soak", "--minutes", "nan"}).exit_code == 2);
 }
 
-TEST_CASE("an interrupted soak tells how far it came", "[soak]")
+TEST_CASE("an interrupted soak reports how far it came", "[soak]")
 {
     CHECK_THAT(interrupted_message("soak"),
                ContainsSubstring("interrupted after ") && ContainsSubstring("0 findings"));
 }
 
-TEST_CASE("a soak makes its folder of cases for findings alone", "[soak]")
+TEST_CASE("a soak creates its folder of cases only for findings", "[soak]")
 {
     const TempFolder folder;
     const auto soak = [&](const std::string& cases) {
@@ -324,7 +325,7 @@ TEST_CASE("a soak makes its folder of cases for findings alone", "[soak]")
     };
     CHECK(soak("new/cases/").exit_code == 0);
     CHECK(folder.names().empty());
-    // Where it can't be made, nothing is traced.
+    // If the folder can't be created, nothing is traced.
     write_text(folder / "file", "");
     const ProgramResult refused = soak("file/cases");
     CHECK(refused.exit_code == 1);

@@ -1,5 +1,5 @@
-// Mirrored rays that are sorted over many tiles bring what those of each tile alone bring, bit for
-// bit.
+// Mirrored rays sorted over many tiles give the same colours as the rays of each tile alone, bit
+// for bit.
 #include "catch.hpp"
 #include "dispatch/kernels.hpp"
 #include "few_objects.hpp"
@@ -24,7 +24,7 @@ struct Picture {
 
 constexpr int block = abi::block_edge * abi::tile_size;
 
-/// In pieces of an edge: those of a tile are not sorted.
+/// Renders in square pieces with sides of `edge`; rays of a single tile are not sorted.
 template <class Real>
 Picture<Real> render_pieces(const TileRenderer<Real>& tiles, const Scene& scene, int edge)
 {
@@ -47,7 +47,7 @@ void check_same(const Picture<Real>& a, const Picture<Real>& b)
     CHECK(a.counts.lacks == b.counts.lacks);
 }
 
-/// Whether `part` has the bits that `whole` has from pixel (x, y) on.
+/// Whether `part` equals the bits of `whole` from pixel (x, y) on.
 bool is_cut_from(const Image<float>& whole, int x, int y, const Image<float>& part)
 {
     const auto row_of = [&](const Image<float>& image, int left, int row) {
@@ -59,8 +59,8 @@ bool is_cut_from(const Image<float>& whole, int x, int y, const Image<float>& pa
     return true;
 }
 
-/// Checks the blocks of a picture against its tiles; returns whether blocks are what frames are
-/// made of.
+/// Compares the blocks of a picture with its tiles; returns false without a comparison if frames
+/// are not rendered in blocks.
 template <class Real>
 bool check_blocks(const Scene& scene, RenderOptions options)
 {
@@ -97,7 +97,7 @@ Scene mirrors()
     return scene;
 }
 
-/// Every other sphere's mirror has another colour.
+/// Every other sphere has a mirror of another colour.
 Scene tinted()
 {
     Scene scene = make_scene(Illumination::general);
@@ -117,7 +117,7 @@ Scene tinted()
 
 }  // namespace
 
-TEST_CASE("sorted mirrored rays give the bits of tiles alone", "[sorted]")
+TEST_CASE("sorted mirrored rays give the same bits as tiles alone", "[sorted]")
 {
     for (const Scene& scene : {flake(), mirrors(), tinted()})
         for (const std::string& isa : supported_isas()) {
@@ -129,7 +129,7 @@ TEST_CASE("sorted mirrored rays give the bits of tiles alone", "[sorted]")
         }
 }
 
-TEST_CASE("sorted mirrored rays may be of doubles, by the notes' rule, cut, or many a pixel",
+TEST_CASE("mirrored rays are sorted in double, by the notes' rule, with cuts and many samples too",
           "[sorted]")
 {
     Scene scene = flake();
@@ -145,7 +145,7 @@ TEST_CASE("sorted mirrored rays may be of doubles, by the notes' rule, cut, or m
     CHECK(check_blocks<float>(scene, options));
 }
 
-TEST_CASE("rays of any few objects in a hierarchy can be sorted", "[sorted]")
+TEST_CASE("rays of a bvh with few objects of any kind can be sorted", "[sorted]")
 {
     int sorted = 0;
     for (unsigned seed = 1; seed <= 150; ++seed) {
@@ -153,7 +153,7 @@ TEST_CASE("rays of any few objects in a hierarchy can be sorted", "[sorted]")
         set_size(scene, 150, 40);
         CAPTURE(seed);
         RenderOptions options{.isa = choose_isa().name, .traversal = Traversal::tree};
-        // In the default mode few objects go through registers.
+        // In the default mode few objects are traced in registers.
         options.accuracy = Accuracy::fast;
         sorted += check_blocks<float>(scene, options);
         options.accuracy = Accuracy::exact;
@@ -163,7 +163,7 @@ TEST_CASE("rays of any few objects in a hierarchy can be sorted", "[sorted]")
     CHECK(sorted > 100);
 }
 
-TEST_CASE("frames are the same for any number of threads, region and rows", "[sorted]")
+TEST_CASE("frames are the same for any number of threads and for a region", "[sorted]")
 {
     const Scene scene = flake();
     RenderOptions options{.threads = 1};
@@ -176,7 +176,7 @@ TEST_CASE("frames are the same for any number of threads, region and rows", "[so
     CHECK(is_cut_from(whole, 101, 33, part));
 }
 
-TEST_CASE("memory for some tiles together is enough for fewer, however deep the scene", "[sorted]")
+TEST_CASE("memory for some tiles together is enough for fewer tiles at any depth", "[sorted]")
 {
     Scene scene = mirrors();
     scene.max_depth = 64;
@@ -212,7 +212,7 @@ TEST_CASE("deep small pictures are those of lists, by tiles alone and together",
     CHECK(is_cut_from(by_list, 0, 0, part));
 }
 
-TEST_CASE("what is not mirrored down a hierarchy is not sorted", "[sorted]")
+TEST_CASE("only scenes with mirrors in a bvh sort their rays", "[sorted]")
 {
     const auto edge = [](const Scene& scene) {
         const RenderOptions options{.isa = choose_isa().name};

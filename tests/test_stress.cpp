@@ -1,4 +1,4 @@
-// The truth that stress holds kernels against, and what it finds.
+// The truth that stress compares kernels with, and its findings.
 #include "catch.hpp"
 #include "killed_program.hpp"
 #include "lab/stress/evaluate.hpp"
@@ -73,7 +73,8 @@ std::vector<StressRow> rows_of(const lab::StressOptions& options)
     return rows;
 }
 
-/// A cylinder, and a ray that is along it to within its own rounding and passes it by.
+/// A cylinder; ray_along_cylinder() runs along it, to within the rounding of the ray, and misses
+/// it.
 Object turned_cylinder()
 {
     Object cylinder{.surface = packtrace::quadric(QuadricKind::cylinder)};
@@ -91,8 +92,8 @@ StressRay ray_along_cylinder()
             std::numeric_limits<double>::infinity()};
 }
 
-/// Whether a change of the ray's direction by no more than `change` of each component makes it
-/// meet the object.
+/// Whether the ray hits the object after a change of each component of its direction by at most
+/// this share.
 bool meets_after(const Object& object, const StressRay& ray, double change)
 {
     for (int which = 0; which < 27; ++which) {
@@ -107,8 +108,8 @@ bool meets_after(const Object& object, const StressRay& ray, double change)
     return false;
 }
 
-/// In exact mode and packets of doubles, all families. Of the instruction sets the widest: those
-/// with fused multiply-add answer alike.
+/// Checks all families in exact mode and in packets of doubles, on the widest instruction set. All
+/// instruction sets with fused multiply-add give the same answers.
 void check_faultless(lab::StressOptions options)
 {
     options.isa = choose_isa("auto").name;
@@ -145,11 +146,11 @@ TEST_CASE("the truth about a ray through a sphere is known", "[stress]")
     CHECK(both[1].t == 12);
     CHECK(both[0].normal.z == -1);
     CHECK(both[0].margin > 0.01);
-    // (|t d| + |c|) / t along the normal, no component of the origin.
+    // (|t d| + |c|) / t along the normal; the origin has no component there.
     CHECK(both[0].condition == Approx((8.0 + 10.0) / 8.0));
 }
 
-TEST_CASE("the truth tells how near a ray is to missing", "[stress]")
+TEST_CASE("the truth includes how close a ray is to missing", "[stress]")
 {
     const Object ball = lab::sphere_object({0, 0, 10}, 2);
     for (const double off : {1e-3, 1e-6, 1e-9}) {
@@ -167,7 +168,7 @@ TEST_CASE("the truth tells how near a ray is to missing", "[stress]")
     }
 }
 
-TEST_CASE("an answer is held against the hit that was expected before", "[stress]")
+TEST_CASE("an answer is compared with the hit that was expected before", "[stress]")
 {
     const Object ball = lab::sphere_object({0, 0, 10}, 2);
     const Object behind = lab::sphere_object({0, 0, 20}, 2);
@@ -185,7 +186,7 @@ TEST_CASE("an answer is held against the hit that was expected before", "[stress
     CHECK(miss.object == -1);
     CHECK(verdict_of(miss, {-1, 0.0, {}}) == Verdict::right);
     CHECK(verdict_of(miss, {0, 10.0, {1, 0, 0}}) == Verdict::false_hit);
-    // Far off, but nearer to no other hit: the right one, with a wrong t.
+    // The answer is far off, but closer to no other hit: the right hit with a wrong t.
     CHECK(errors_of(expected, through, {0, 8.001, {0, 0, -1}}).wrong() == 0);
     CHECK(errors_of(expected, through, {0, 8.001, {0, 0, -1}}).t_beyond == 1);
 }
@@ -213,7 +214,7 @@ TEST_CASE("t, normals and numbers that are wrong are counted", "[stress]")
     CHECK(errors({0, std::nan(""), {0, 0, -1}}).not_finite == 1);
 }
 
-TEST_CASE("where both roots are one float the normal tells the far side", "[stress]")
+TEST_CASE("if both roots are one float the normal identifies the far side", "[stress]")
 {
     const Object ball = lab::sphere_object({0, 0, 10000}, static_cast<double>(0.0003f));
     const auto small = static_cast<double>(1e-8f);
@@ -228,7 +229,7 @@ TEST_CASE("where both roots are one float the normal tells the far side", "[stre
 
 TEST_CASE("which of two objects is first is decided as far as double can", "[stress]")
 {
-    // A ball of radius 2 before another whose hit is `gap` behind.
+    // A ball of radius 2 before another whose hit is `gap` further away.
     for (const double gap : {1e-3, 1e-9, 1e-14, 1e-17}) {
         CAPTURE(gap);
         std::vector<TrueHit> hits(2);
@@ -252,13 +253,13 @@ TEST_CASE("which of two objects is first is decided as far as double can", "[str
     }
 }
 
-TEST_CASE("where a ray along a plane meets it is not decided", "[stress]")
+TEST_CASE("for a ray along a plane the hit is not decided", "[stress]")
 {
     const auto at = [](const Vec3& point, const Vec3& normal) -> Object {
         return {.surface = Plane{point, normal}};
     };
-    // The first plane is met at 4.7 by numbers of which double loses all digits; the range ends
-    // before, and the second is met at 1.1.
+    // The hit of the first plane at 4.7 comes from numbers of which double loses all digits. The
+    // range ends before it, and the second plane is hit at 1.1.
     const Object along = at({-1.9695611906237829, -0.41843472844922847, -0.0930777920808108},
                             {0.1474537127369533, -0.9770021895775972, 0.15402637488647472});
     const Object across = at({1.1753415959903997, 0.5997598098087433, -0.7454016051536279},
@@ -274,7 +275,7 @@ TEST_CASE("where a ray along a plane meets it is not decided", "[stress]")
     CHECK(expected_of({across}, ray).decided(lab::double_band));
 }
 
-TEST_CASE("every ray hits crossing planes, on their edge as well", "[stress]")
+TEST_CASE("every ray hits intersecting planes, on their edge as well", "[stress]")
 {
     Object planes{.surface = Quadric{.coefficients = {1, 0, -1, 0, 0, 0, 0, 0, 0, 0}}};
     const Expected edge = expected_of({planes}, endless({0, 0, -5}, {0, 0.04, 0.2}));
@@ -338,7 +339,7 @@ TEST_CASE("a ray inside a capped body has to leave it, at its rim as well", "[st
     CHECK(not_even({0, 0, 2}, {0.25, 0, -1}, 0) == 1);
 }
 
-TEST_CASE("any-hit answers and the first of all hits are held to the truth", "[stress]")
+TEST_CASE("any-hit answers and the first of all hits are compared with the truth", "[stress]")
 {
     const Object ball = lab::sphere_object({0, 0, 10}, 2);
     const Expected hit = expected_of({ball}, endless({0, 0, 0}, {0, 0, 1}));
@@ -369,7 +370,7 @@ TEST_CASE("a ray along a cone's side has one hit, and none at infinity", "[stres
     CHECK(expected_of({cone}, ray).t == 1);
 }
 
-TEST_CASE("among many spheres the truth leaves out none that matters", "[stress]")
+TEST_CASE("among many spheres the truth skips none that matters", "[stress]")
 {
     for (const lab::StressFamily& family : lab::touching_families()) {
         if (family.name != "creases-100" && family.name != "creases-1000")
@@ -381,7 +382,7 @@ TEST_CASE("among many spheres the truth leaves out none that matters", "[stress]
                 const Expected& some = group.expected[i];
                 CHECK(some.object == all.object);
                 CHECK(some.t == all.t);
-                // Beyond any band the margins may be those of other far objects.
+                // Beyond the band the margins may be those of other far objects.
                 CHECK(std::min(some.margin, 1e-6) == std::min(all.margin, 1e-6));
             }
     }
@@ -402,7 +403,7 @@ TEST_CASE("known findings come first in their families", "[stress]")
     CHECK(known >= 6);
 }
 
-TEST_CASE("the square root of 113 bits is right to the last", "[stress]")
+TEST_CASE("the square root of 113 bits is right to the last bit", "[stress]")
 {
     for (const double x : {4.0, 2.0, 1e-300, 3e300, 4e-308, 0.1}) {
         const lab::Wide root = lab::square_root(lab::Wide(x));
@@ -413,7 +414,7 @@ TEST_CASE("the square root of 113 bits is right to the last", "[stress]")
     CHECK(lab::square_root(lab::Wide(-1)) == 0);
 }
 
-TEST_CASE("a verdict names the families that are wrong", "[stress]")
+TEST_CASE("a verdict names the families with wrong answers", "[stress]")
 {
     StressRow good;
     good.family = "sphere";
@@ -441,7 +442,7 @@ TEST_CASE("a verdict names the families that are wrong", "[stress]")
           "verdict: exact is right in the family " + good.family +
               " (0 wrong decisions, 0 self-hits, 0 second hits lost, 0 of 300 bounds missed, 100 "
               "rays)");
-    // What is beyond the bounds because double has no more digits is named, and no fault.
+    // A result beyond the bounds because double has no more digits is named, but is no fault.
     StressRow limit = good;
     limit.family = "far";
     limit.hits = 90;
@@ -451,7 +452,8 @@ TEST_CASE("a verdict names the families that are wrong", "[stress]")
     CHECK(lab::stress_verdict({good, limit}) ==
           "verdict: exact is right in all 2 families (0 wrong decisions, 0 self-hits, 0 second "
           "hits lost, 200 rays), double itself at its limit in far (2 t, 1 normals of 90)");
-    // Packets of doubles do not refine: an ulp of double is not held to, what inputs make is.
+    // Packets of doubles do not refine: an error of an ulp of double is no fault, an error beyond
+    // that of the inputs is.
     StressRow doubles = good;
     doubles.precision = Precision::double_;
     doubles.hits = 100;
@@ -460,7 +462,7 @@ TEST_CASE("a verdict names the families that are wrong", "[stress]")
     CHECK(lab::faults_of(doubles).empty());
     doubles.rho = 4.1;
     CHECK(lab::faults_of(doubles).size() == 1);
-    // Without fused operations products round by themselves.
+    // Without fused operations products have their own rounding errors.
     doubles.isa = "sse42";
     CHECK(lab::faults_of(doubles).empty());
     doubles.rho = 8.1;
@@ -482,7 +484,7 @@ TEST_CASE("a verdict names the families that are wrong", "[stress]")
     }
 }
 
-TEST_CASE("a ray that its own rounding turns towards a cylinder is inside the band", "[stress]")
+TEST_CASE("a ray that its own rounding may turn towards a cylinder is inside the band", "[stress]")
 {
     const double band = lab::undecided_band * 0x1p-24;
     const auto along = true_hits(turned_cylinder(), ray_along_cylinder());
@@ -490,7 +492,7 @@ TEST_CASE("a ray that its own rounding turns towards a cylinder is inside the ba
     CHECK(!along[0].exists);
     CHECK(meets_after(turned_cylinder(), ray_along_cylinder(), 0x1p-24));
     CHECK(along[0].margin < band);
-    // Ten thousand times further off the axis it is decided, until its range ends.
+    // Ten thousand times further off the axis, the miss is decided until the ray interval ends.
     StressRay off = ray_along_cylinder();
     off.dir += 1e-3 * Vec3(turned_cylinder().transform[0]);
     for (const TrueHit& hit : true_hits(turned_cylinder(), off))
@@ -515,7 +517,7 @@ TEST_CASE("packets are right about rays along a cylinder outside the band", "[st
     }
 }
 
-TEST_CASE("second hits are those of rays from where they start", "[stress]")
+TEST_CASE("second hits are those of rays from their actual starts", "[stress]")
 {
     const lab::StressOptions options{.families = {"cone-apex", "far-quadric"},
                                      .kernels = {"packet"},
@@ -573,7 +575,7 @@ TEST_CASE("powers, glass and mirrors keep their bounds", "[stress]")
     }
 }
 
-TEST_CASE("the textbook breaks on what packets hold", "[stress]")
+TEST_CASE("the textbook test fails where packets hold", "[stress]")
 {
     lab::StressOptions options{
         .families = {"tiny-far"}, .precisions = {Precision::single}, .rays = 1000};
@@ -594,7 +596,7 @@ TEST_CASE("all instruction sets with fused multiply-add answer alike in every mo
     const std::vector<std::string> fused = {"sse_fma", "avx2", "avx512"};
     for (const StressRow& row : rows_of(options)) {
         CAPTURE(row.family, language::word_of(row.precision), row.mode, row.isa);
-        // Any with it comes with all of them.
+        // If any instruction set with fused multiply-add is listed, all of them are.
         const std::string names = " " + row.isa + " ";
         std::size_t in_row = 0;
         std::size_t supported = 0;
@@ -646,7 +648,8 @@ TEST_CASE("the stress command prints rows, a verdict, JSON and its families", "[
     CHECK(run_packtrace({"stress", "--self-hits", "nonsense"}).exit_code == 2);
 }
 
-TEST_CASE("the stress command names families near an unknown one, and how to list all", "[stress]")
+TEST_CASE("the stress command suggests families similar to an unknown one, and how to list all",
+          "[stress]")
 {
     const auto fault_of = [](const std::string& family) {
         const ProgramResult result = run_packtrace({"stress", "--family", family});
@@ -677,7 +680,7 @@ TEST_CASE("the stress command writes wrong rays and their scenes", "[stress]")
     const ProgramResult traced = run_packtrace({"intersect", name + ".scene", name + ".csv"});
     CHECK(traced.exit_code == 0);
     CHECK(std::count(traced.out.begin(), traced.out.end(), '\n') == 2);
-    // The folder is made for what is wrong; where a file is in its way, nothing is traced.
+    // The folder is created for wrong rays; if a file is in its way, nothing is traced.
     const ProgramResult right =
         run_packtrace({"stress", "--family", "tiny-far", "--rays", "64", "--kernel", "packet",
                        "--mode", "exact", "--cases", (folder / "none").string()});
@@ -691,7 +694,7 @@ TEST_CASE("the stress command writes wrong rays and their scenes", "[stress]")
     CHECK(nowhere.err.find(name + ".csv") != std::string::npos);
 }
 
-TEST_CASE("an interrupted stress tells how far it came", "[stress]")
+TEST_CASE("an interrupted stress test reports how far it came", "[stress]")
 {
     const std::string families = std::to_string(lab::list_stress_families().size());
     CHECK_THAT(interrupted_message("stress"),
@@ -700,7 +703,7 @@ TEST_CASE("an interrupted stress tells how far it came", "[stress]")
                    ContainsSubstring(" rows with faults"));
 }
 
-TEST_CASE("accuracy is refused where it means nothing", "[stress]")
+TEST_CASE("accuracy is refused where it has no meaning", "[stress]")
 {
     const std::string scene = PACKTRACE_SOURCE_DIR "/scenes/four_spheres.scene";
     const auto render_with = [&](std::vector<std::string> more) {

@@ -1,5 +1,5 @@
-// Rays of whole numbers that touch a body in one point exactly: rounding decides whether they hit
-// it, but not where.
+// Rays of whole numbers that touch a body exactly in one point: rounding decides whether they hit
+// the body, but not where.
 #include "catch.hpp"
 #include "packet_ways.hpp"
 #include "scenes.hpp"
@@ -19,7 +19,7 @@
 namespace packtrace::test {
 namespace {
 
-/// x² wx + y² wy + z² wz = 9, as the scene language has it.
+/// x² wx + y² wy + z² wz = 9, in the scene language.
 struct Touched {
     std::string text;
     std::array<std::int64_t, 3> weight;
@@ -41,7 +41,7 @@ struct TouchingRay {
     double t;
 };
 
-/// The rays of some thousands that touch the body, ahead of or behind their origin.
+/// Of some thousands of rays, those that touch the body, ahead of or behind their origin.
 std::vector<TouchingRay> rays_that_touch(const Touched& body)
 {
     SceneRandom random(7);
@@ -76,8 +76,8 @@ Ray<Real> ray_of(const TouchingRay& touching)
     return ray;
 }
 
-/// By how much a root that counts twice may be off, beside 1: half the digits of what decides,
-/// which is double but for the scalar reference in single precision.
+/// The error of a double root, relative to 1 + |t|: half the digits of the deciding precision. That
+/// is double, except for the scalar reference in single precision.
 constexpr double of_double = 2e-6;
 constexpr double of_single = 2e-3;
 
@@ -121,7 +121,7 @@ void check_all(const RenderOptions& options, double precision = of_double)
 
 }  // namespace
 
-TEST_CASE("A ray that touches a body meets it where it does, or nowhere", "[tangents]")
+TEST_CASE("A ray that touches a body hits it at the point of contact or misses it", "[tangents]")
 {
     for (const RenderOptions& options : packet_ways()) {
         INFO(options.isa);
@@ -132,7 +132,7 @@ TEST_CASE("A ray that touches a body meets it where it does, or nowhere", "[tang
     check_all<double>({.kernel = Kernel::scalar});
 }
 
-TEST_CASE("The first hit is the first of all hits, however near to touching", "[tangents]")
+TEST_CASE("The first hit is the first of all hits, however close to touching", "[tangents]")
 {
     std::mt19937_64 random(3);
     std::uniform_real_distribution<double> any(-1.0, 1.0);
@@ -142,7 +142,7 @@ TEST_CASE("The first hit is the first of all hits, however near to touching", "[
             const RayScene<double> scene(parse_scene(text, "body", {}), options);
             int hits = 0;
             for (int i = 0; i < 4000; ++i) {
-                // Along a tangent of the unit sphere, or of what it is scaled to.
+                // Along a tangent of the unit sphere, or of the body it is scaled to.
                 const Vec3 up = glm::normalize(Vec3(any(random), any(random), any(random)));
                 const Vec3 along = glm::cross(up, Vec3(any(random), any(random), any(random)));
                 const double off = 1.0 - std::pow(10.0, -12.0 - 4.0 * std::abs(any(random)));
@@ -160,7 +160,7 @@ TEST_CASE("The first hit is the first of all hits, however near to touching", "[
         }
 }
 
-TEST_CASE("A hit so far that single precision has no number for it is none", "[tangents]")
+TEST_CASE("A hit too far away for single precision is a miss", "[tangents]")
 {
     const Scene scene = parse_scene(
         "cylinder { name = c }\n"

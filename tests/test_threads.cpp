@@ -1,5 +1,5 @@
-// Work on several threads: callbacks that have tasks of their own, and what many short pieces of
-// work leave in memory.
+// Work on several threads: callbacks with tasks of their own, and the memory use of many short
+// pieces of work.
 #include "catch.hpp"
 #include "peak_memory.hpp"
 #include <packtrace/read_scene.hpp>
@@ -46,7 +46,7 @@ TEST_CASE("A progress callback may wait for tasks of its own", "[threads]")
     CHECK(most_within == 1);
 }
 
-TEST_CASE("Frames on a number of threads of their own leave no memory in use", "[threads]")
+TEST_CASE("Frames on a private number of threads leave no memory in use", "[threads]")
 {
     const Renderer<float> renderer(ball("16 x 16"), {.threads = 2});
     Image<float> image;

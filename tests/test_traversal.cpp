@@ -19,8 +19,8 @@
 #include <random>
 #include <vector>
 
-// Through the hierarchy, as beams, cells or single rays, the same is hit as one by one: bit for
-// bit, in t and in object.
+// Traversal of a bvh by interval frusta, cells or single rays gives the same hits as lists: t and
+// object agree bit for bit.
 namespace packtrace::test {
 namespace {
 
@@ -46,7 +46,7 @@ Quadric quadric_of(int which)
     return quadric;
 }
 
-/// Objects of all kinds in a ball around (0, 0, 6): overlapping, in each other, some twice.
+/// Objects of all kinds in a ball around (0, 0, 6): overlapping, inside each other, some twice.
 Scene mixed_scene(int count, unsigned seed)
 {
     std::mt19937 random(seed);
@@ -78,8 +78,9 @@ Scene mixed_scene(int count, unsigned seed)
     return scene;
 }
 
-/// In runs of 64: bundles from a point, parallel ones, along an axis, and every which way; of
-/// any length, from inside and from far away, some ending early, a few of no use at all.
+/// Rays in runs of 64: from a point, parallel, along an axis, and in all directions. Their
+/// directions have any length; they start inside and far away, some end early, and a few are
+/// invalid.
 template <class Real>
 RayColumns<Real> many_rays(int count, unsigned seed)
 {
@@ -185,7 +186,7 @@ void compare_frames(const Frame<Real>& list, const Frame<Real>& tree)
     CHECK(list.counts.reflected > 0);
 }
 
-/// Lists of one of these instruction sets, which give the same bits, with hierarchies of all.
+/// Compares lists on one instruction set with bvhs on all of `isas`, which give the same bits.
 template <class Real>
 void compare_with_lists(const Scene& scene, int rays, unsigned seed, RenderOptions options,
                         const std::vector<std::string>& isas, const std::string& isa_of_lists)
@@ -202,7 +203,7 @@ void compare_with_lists(const Scene& scene, int rays, unsigned seed, RenderOptio
     }
 }
 
-/// Lists take several times as long as hierarchies: the instruction sets take turns with them.
+/// Lists take several times as long as bvhs, so each scene runs them on one instruction set only.
 void compare_on_every_isa(int scenes, int rays, unsigned seed)
 {
     std::vector<std::string> others = supported_isas();
@@ -218,7 +219,7 @@ void compare_on_every_isa(int scenes, int rays, unsigned seed)
             const unsigned number = seed + static_cast<unsigned>(i);
             const Scene scene = mixed_scene(objects, number);
             const RenderOptions options{.accuracy = i % 2 == 0 ? Accuracy::fast : Accuracy::exact};
-            // Each has its turn in either accuracy.
+            // Each instruction set has its turn in either accuracy.
             const std::string& turn = isas[static_cast<std::size_t>((i + i / count) % count)];
             compare_with_lists<float>(scene, rays, number, options, isas, turn);
             compare_with_lists<double>(scene, rays, number, options, isas, turn);
@@ -228,7 +229,7 @@ void compare_on_every_isa(int scenes, int rays, unsigned seed)
 
 }  // namespace
 
-TEST_CASE("frames of wide packets keep to lists for longer than those of narrow ones",
+TEST_CASE("frames of wide packets use lists up to more objects than those of narrow packets",
           "[traversal]")
 {
     const auto chosen = [](int objects, int lanes) {
@@ -238,8 +239,8 @@ TEST_CASE("frames of wide packets keep to lists for longer than those of narrow 
         CHECK(chosen(80, lanes) == Traversal::list);
         CHECK(chosen(300, lanes) == Traversal::tree);
     }
-    // results/crossover.json: frames by trees win from 107 to 222 spheres on in 16 lanes, from
-    // fewer than 96 to 152 in 4.
+    // results/crossover.json: frames by a bvh win from 72 to 256 spheres on with 16 lanes, and from
+    // 63 to 224 with 4, depending on the scene.
     CHECK(chosen(140, 4) == Traversal::tree);
     CHECK(chosen(140, 16) == Traversal::list);
     const LoweredScene few = lower(random_spheres(5, 1));
@@ -247,7 +248,7 @@ TEST_CASE("frames of wide packets keep to lists for longer than those of narrow 
     CHECK(frame_traversal(lower(random_spheres(600, 1)), Traversal::list, 4) == Traversal::list);
 }
 
-TEST_CASE("exact frames without mirrors or glass keep to lists for longest", "[traversal]")
+TEST_CASE("exact frames without mirrors or glass use lists up to the most objects", "[traversal]")
 {
     const auto chosen = [](const Scene& scene, Accuracy accuracy) {
         return frame_traversal(lower(scene, accuracy), Traversal::automatic, 8);
@@ -261,7 +262,8 @@ TEST_CASE("exact frames without mirrors or glass keep to lists for longest", "[t
     CHECK(chosen(matt_spheres(380), Accuracy::exact) == Traversal::list);
     CHECK(chosen(matt_spheres(390), Accuracy::exact) == Traversal::tree);
     CHECK(chosen(matt_spheres(380), Accuracy::fast) == Traversal::tree);
-    // In single precision alone earlier than where mirrored rays run apart.
+    // In fast mode matt scenes switch to the bvh at fewer objects than scenes with incoherent
+    // mirrored rays.
     CHECK(chosen(matt_spheres(108), Accuracy::fast) == Traversal::list);
     CHECK(chosen(matt_spheres(116), Accuracy::fast) == Traversal::tree);
     CHECK(chosen(random_spheres(116, 1), Accuracy::fast) == Traversal::list);
@@ -270,7 +272,7 @@ TEST_CASE("exact frames without mirrors or glass keep to lists for longest", "[t
     CHECK(chosen(mirrors, Accuracy::exact) == Traversal::tree);
     mirrors.max_depth = 0;
     CHECK(chosen(mirrors, Accuracy::exact) == Traversal::list);
-    // A polygon counts as four.
+    // A polygon counts as four objects.
     Scene with_polygons = matt_spheres(200);
     const auto add_triangle = [&](double z) {
         const std::vector<Vec3> corners = {{0, 0, z}, {1, 0, z}, {0, 1, z}};
@@ -283,14 +285,14 @@ TEST_CASE("exact frames without mirrors or glass keep to lists for longest", "[t
     CHECK(chosen(with_polygons, Accuracy::exact) == Traversal::tree);
 }
 
-TEST_CASE("lists and hierarchies give the same hits and pictures", "[traversal]")
+TEST_CASE("lists and bvhs give the same hits and pictures", "[traversal]")
 {
     compare_on_every_isa(4, 3000, 1);
 }
 
 namespace {
 
-/// Small quadrics and triangles in a ball around (0, 0, 6), and a mirror to see them in.
+/// Small quadrics and triangles in a ball around (0, 0, 6), and a mirror that shows them.
 Scene quadrics_and_polygons(int count)
 {
     Scene scene = mixed_scene(0, 1);
@@ -312,20 +314,21 @@ Scene quadrics_and_polygons(int count)
 
 }  // namespace
 
-TEST_CASE("more quadrics and polygons than bounds are kept of are hit as from lists", "[traversal]")
+TEST_CASE("more quadrics and polygons than the bvh keeps bounds of are hit as from lists",
+          "[traversal]")
 {
     const Scene scene = quadrics_and_polygons(700);
     for (const std::string& isa : supported_isas()) {
         INFO(isa);
         const RenderOptions options{.isa = isa};
-        // From near and from 400 away by turns.
+        // Rays from nearby and from 400 away alternate.
         compare_traversals(scene, many_rays<float>(3000, 5), options);
         compare_frames(frame_of<float>(scene, options, Traversal::list),
                        frame_of<float>(scene, options, Traversal::tree));
     }
 }
 
-TEST_CASE("a few objects very far from the rest are in no hierarchy", "[traversal]")
+TEST_CASE("a few objects very far from the rest are in no bvh", "[traversal]")
 {
     Scene scene = random_spheres(300, 1);
     const auto packed = [&] { return PackedScene<float>(lower(scene), Traversal::tree); };
@@ -337,7 +340,7 @@ TEST_CASE("a few objects very far from the rest are in no hierarchy", "[traversa
     CHECK(with_far.view().tree.extent == alone.extent);
     CHECK(with_far.view().spheres.count == 3);
 
-    // Of a moved one the same is true.
+    // This also holds for moved objects.
     RayScene<float> moving(scene);
     scene.objects[0].surface = Sphere{{0, 1e7, 0}, 1.0};
     const std::int32_t moved[] = {0};
@@ -352,14 +355,14 @@ TEST_CASE("a few objects very far from the rest are in no hierarchy", "[traversa
     const Ray<float> up{{0, 100, 0}, {0, 1, 0}};
     CHECK(moving.closest_hit(up).object == 0);
 
-    // Where half of all is far away, there is no rest.
+    // If half of the objects is far away, no objects count as far.
     Scene halves = random_spheres(300, 1);
     for (int i = 0; i < 150; ++i)
         halves.objects[static_cast<std::size_t>(i)].surface = Sphere{{0, 0, 1e6}, 1.0};
     CHECK(count_tree_objects(lower(halves)).all() == 300);
 }
 
-TEST_CASE("objects too far away for a hierarchy overwrite nothing and hide nothing", "[traversal]")
+TEST_CASE("objects too far away for a bvh overwrite nothing and hide nothing", "[traversal]")
 {
     for (const double far : {1e10, 9e11}) {
         for (const int apart : {1, 2, 40}) {
@@ -387,9 +390,9 @@ TEST_CASE("objects too far away for a hierarchy overwrite nothing and hide nothi
     }
 }
 
-TEST_CASE("caps without end are found through a hierarchy, too", "[traversal]")
+TEST_CASE("unbounded caps are found through a bvh too", "[traversal]")
 {
-    // Outside of the ellipsoid is what the caps close.
+    // The caps close the outside of the ellipsoid.
     Quadric inside_out{.coefficients = {-1, -2, -3, 0, 0, 0, 0, 0, 0, 1},
                        .z_range = ZRange{-0.5, 0.2},
                        .capped = true};
@@ -410,12 +413,12 @@ TEST_CASE("caps without end are found through a hierarchy, too", "[traversal]")
     CHECK(packets.hits == expected.hits);
 }
 
-TEST_CASE("lists and hierarchies give the same for a hundred scenes", "[traversal][slow]")
+TEST_CASE("lists and bvhs give the same for a hundred scenes", "[traversal][slow]")
 {
     compare_on_every_isa(100, 5000, 1000);
 }
 
-TEST_CASE("light through glass passes a hierarchy as it passes a list", "[traversal]")
+TEST_CASE("light through glass passes a bvh as it passes a list", "[traversal]")
 {
     Scene scene = mixed_scene(60, 3);
     scene.illumination = Illumination::whitted;
@@ -431,7 +434,7 @@ TEST_CASE("light through glass passes a hierarchy as it passes a list", "[traver
     double worst = 0.0;
     for (std::size_t i = 0; i < pictures[0].rgb.size(); ++i)
         worst = std::max(worst, std::abs(pictures[0].rgb[i] - pictures[1].rgb[i]));
-    // Shares are multiplied in the order occluders are found.
+    // Shares are multiplied in the order in which occluders are found.
     CHECK(worst < 1e-12);
     CHECK(pictures[0].rgb[3 * 70 * 25] >= 0.0);
 }

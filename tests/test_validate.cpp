@@ -14,7 +14,8 @@
 #include <string>
 #include <vector>
 
-// What validate() says of scenes built in code, where its ranges end, and the helpers that build.
+// The messages of validate() about scenes built in code, the ends of its ranges, and the helpers
+// that build scenes.
 namespace packtrace::test {
 namespace {
 
@@ -35,7 +36,7 @@ std::string fault_of(const Surface& surface)
     return fault_of(scene_of({make_object(surface)}));
 }
 
-/// Throws in the midst of an emplace, which then leaves its variant without a value.
+/// Throws during an emplace, which leaves its variant without a value.
 struct FailingPolygon {
     operator Polygon() const
     {
@@ -43,7 +44,7 @@ struct FailingPolygon {
     }
 };
 
-/// One of the numbers that a range allows: its ends, and some between.
+/// A number that a range permits: one of its ends, or one between them.
 double extreme(RandomScene& random, double smallest, double largest)
 {
     const double numbers[] = {smallest, largest, std::sqrt(smallest * largest), 1.0};
@@ -126,7 +127,7 @@ void check_picture(const Scene& scene, Kernel kernel)
 
 }  // namespace
 
-TEST_CASE("a fault is named with its object and the cure", "[validate]")
+TEST_CASE("a fault is named with its object and a remedy", "[validate]")
 {
     const Object good = make_object(packtrace::sphere({0, 0, 3}, 1));
     const Object bad = make_object(packtrace::sphere({0, 0, 3}, -1));
@@ -171,7 +172,7 @@ TEST_CASE("a quadric is complete or refused", "[validate]")
           "coefficients");
 }
 
-TEST_CASE("of several faults the first object's is told", "[validate]")
+TEST_CASE("of several faults the first object's is reported", "[validate]")
 {
     Scene scene = scene_of({});
     for (int i = 0; i < 50'000; ++i)
@@ -238,9 +239,9 @@ TEST_CASE("numbers at the ends of their ranges give pictures without NaN", "[val
     }
 }
 
-TEST_CASE("a scene of more keys than a file may have has no text", "[validate][slow]")
+TEST_CASE("a scene with more keys than a file may have has no text", "[validate][slow]")
 {
-    // Six each: the sphere itself, its centre, radius, colour, highlight and mirrored share.
+    // Six keys each: the sphere itself, its centre, radius, colour, highlight and mirrored share.
     const Object object = make_object(packtrace::sphere({0, 0, 3}, 1));
     Scene scene = scene_of({});
     scene.objects.assign(1'300'000, object);
@@ -249,7 +250,7 @@ TEST_CASE("a scene of more keys than a file may have has no text", "[validate][s
     CHECK_THROWS_WITH(scene_text(scene), ContainsSubstring("keep it within 8000000 keys"));
 }
 
-TEST_CASE("helpers build what the language's words do", "[validate]")
+TEST_CASE("helpers build the same objects as the language's words", "[validate]")
 {
     const auto check = [](const Object& built, const std::string& text) {
         INFO(text);
@@ -281,7 +282,7 @@ TEST_CASE("helpers build what the language's words do", "[validate]")
                       ContainsSubstring("points nowhere"));
 }
 
-TEST_CASE("scenes and materials of an illumination fit each other", "[validate]")
+TEST_CASE("scenes and materials of an illumination are consistent", "[validate]")
 {
     for (int i = 0; i < 5; ++i) {
         const auto illumination = static_cast<Illumination>(i);

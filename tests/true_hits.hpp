@@ -8,19 +8,19 @@
 #include <limits>
 #include <vector>
 
-// What rays hit, in 113 bits, and whether doubles can tell.
+// True hits of rays in 113 bits, and whether double precision can decide them.
 namespace packtrace::test {
 
-/// Relative changes of the inputs, in roundoffs of double, within which nothing is held to.
+/// Relative changes of the inputs, in roundoffs of double, within which any answer is accepted.
 inline constexpr double double_band = 16.0 * 0x1p-53;
 
 struct AimedTruth {
     std::int32_t object = -1;  ///< -1: none
     double t = 0.0;
     double condition = 0.0;
-    bool decidable = true;  ///< by double: whether there is a hit, and of which object
-    /// An end of the ray near the hit, if any, whether anything is before it, and whether double
-    /// can tell.
+    bool decidable = true;  ///< whether double can decide if there is a hit, and of which object
+    /// An end of the ray near the hit, if any; whether any object occludes the ray before that end;
+    /// and whether double can decide this.
     float t_max = std::numeric_limits<float>::infinity();
     bool occluded = false;
     bool occlusion_decidable = true;

@@ -6,8 +6,8 @@
 #include <iostream>
 #include <string>
 
-// A program as a user of the library writes one: a picture, a ray of its own, and an error. Ends
-// with 0 where all three are right.
+// An example program of a user of the library: a picture, a ray and an error. Exits with 0 if all
+// three are right.
 
 static_assert(PACKTRACE_VERSION_MAJOR == 0 && PACKTRACE_VERSION_MINOR >= 2);
 
@@ -39,7 +39,7 @@ bool ray_hits_at_4(const packtrace::Scene& scene)
     return t == 4.0 && object == 0;
 }
 
-/// Errors are caught by their own type across the boundary of a shared library.
+/// An exception keeps its type across the boundary of a shared library.
 bool wrong_scene_throws()
 {
     try {

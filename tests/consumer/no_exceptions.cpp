@@ -4,8 +4,8 @@
 
 #include <vector>
 
-// A part of a program that is compiled without exceptions, as games are: all of the headers that
-// holds code of its own. Ends with 0 where the picture and the ray are right.
+// A source file compiled without exceptions, as in many games: it includes all headers that contain
+// code. Exits with 0 if the picture and the ray are right.
 
 int main()
 {

@@ -1,4 +1,4 @@
-// Any bytes as a baseline of bench: figures, whose text reads back, or an error.
+// Any bytes as a baseline of bench give numbers whose text reads back, or an error.
 #include "cli/study/bench_file.hpp"
 #include "input_file.hpp"
 

@@ -1,4 +1,5 @@
-// Any line as a one-dimensional system: its text reads back as the same, and all solvers agree.
+// Any line as a one-dimensional system: its text reads back as the same system, and all solvers
+// agree.
 #include "fuzzer.hpp"
 #include <packtrace/onedim.hpp>
 
@@ -18,7 +19,7 @@ PACKTRACE_FUZZER(onedim)
         require(!read_system(to_text(systems[0], notation), again), "its text can be read");
         require(again.surfaces == systems.surfaces, "its text reads back as the same system");
     }
-    // The sweeps take long for long systems.
+    // Sweeps of long systems take long.
     if (systems.surfaces.size() > 200)
         return;
     const Intensity seen = solve(systems[0]);

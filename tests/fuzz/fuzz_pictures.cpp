@@ -1,5 +1,5 @@
-// Any bytes as PNG, PFM and Radiance HDR: a picture of as many values as its sizes say, or an
-// error.
+// Any bytes as PNG, PFM and Radiance HDR give an error, or a picture with as many values as its
+// size says.
 #include "fuzzer.hpp"
 #include "image/formats.hpp"
 #include <packtrace/image_io.hpp>

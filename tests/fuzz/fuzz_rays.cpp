@@ -1,4 +1,4 @@
-// Any text as a CSV of rays: as many rays in every column, or one line that says why not.
+// Any text as a CSV of rays gives the same number of rays in every column, or a one-line error.
 #include "cli/intersect/ray_csv.hpp"
 #include "cli/intersect/ray_file.hpp"
 #include "core/read_file.hpp"

@@ -1,5 +1,5 @@
-// Any text: a scene or one line that says why not. What is read is written as text that reads back
-// as the same.
+// Any text gives a scene or a one-line error. The text written of a scene reads back as the same
+// scene.
 #include "fuzzer.hpp"
 #include <packtrace/read_scene.hpp>
 #include <packtrace/write_scene.hpp>

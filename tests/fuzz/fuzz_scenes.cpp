@@ -1,5 +1,5 @@
-// Random scenes with some of their numbers changed to any: every way to trace them keeps what
-// packtrace soak asks of it.
+// Random scenes with some numbers replaced by any value: every way to trace a scene passes the
+// checks of packtrace soak.
 #include "fuzzer.hpp"
 #include "lab/soak/soak.hpp"
 #include "lab/soak/soak_scene.hpp"
@@ -15,7 +15,7 @@ namespace {
 
 using namespace packtrace;
 
-/// Takes values off the front of the bytes; zeros after their end.
+/// Takes values off the front of the bytes; gives zeros after their end.
 class Reader {
 public:
     explicit Reader(fuzz::Bytes bytes) : bytes_(bytes)
@@ -39,7 +39,7 @@ private:
     fuzz::Bytes bytes_;
 };
 
-/// Every number of the objects' places.
+/// All numbers that place the objects.
 std::vector<double*> numbers_of(Scene& scene)
 {
     std::vector<double*> numbers;

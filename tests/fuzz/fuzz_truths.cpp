@@ -1,4 +1,4 @@
-// Any bytes as a kept truth of the key "key": a whole picture, or nothing.
+// Any bytes as a cached truth with the key "key" give a whole picture, or nothing.
 #include "input_file.hpp"
 #include "lab/truth/truth_cache.hpp"
 

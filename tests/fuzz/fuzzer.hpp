@@ -8,8 +8,8 @@
 #include <string_view>
 #include <vector>
 
-// A fuzzer is one function of bytes. libFuzzer's build makes a program of each (PACKTRACE_FUZZ);
-// the tests' build puts all into one program, which runs them over their corpora.
+// A fuzzer is one function of bytes. With PACKTRACE_FUZZ, libFuzzer's build makes a program of each
+// fuzzer. The tests' build puts all into one program, which runs them over their corpora.
 namespace packtrace::fuzz {
 
 using Bytes = std::span<const std::uint8_t>;
@@ -19,7 +19,7 @@ struct Fuzzer {
     void (*run)(Bytes);
 };
 
-/// Those of this program.
+/// The fuzzers of this program.
 inline std::vector<Fuzzer>& fuzzers()
 {
     static std::vector<Fuzzer> all;
@@ -31,7 +31,7 @@ inline std::string_view text_of(Bytes bytes)
     return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
 }
 
-/// Ends the program where a promise is broken.
+/// Ends the program if a promise is broken.
 inline void require(bool kept, const char* promise)
 {
     if (kept)

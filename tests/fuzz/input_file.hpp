@@ -8,7 +8,7 @@
 
 namespace packtrace::fuzz {
 
-/// A file in memory that holds the bytes, for readers that take a name.
+/// A file in memory that holds the bytes, for readers that take a file name.
 class InputFile {
 public:
     explicit InputFile(Bytes bytes) : handle_(memfd_create("input", MFD_CLOEXEC))

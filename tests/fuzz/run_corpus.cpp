@@ -1,4 +1,4 @@
-// run_corpus NAME FOLDER: runs a fuzzer over the files of its corpus, in order of their names.
+// run_corpus NAME FOLDER: runs a fuzzer over the files of its corpus, sorted by name.
 #include "fuzzer.hpp"
 
 #include <algorithm>
@@ -25,7 +25,7 @@ int run(const packtrace::fuzz::Fuzzer& fuzzer, const char* folder)
 {
     const auto files = files_of(folder);
     for (const auto& file : files) {
-        // Before the run, so that the file that ends it is known.
+        // Printed before the run, so that the last name printed is the file that ended the program.
         std::printf("%s\n", file.filename().c_str());
         std::fflush(stdout);
         std::ifstream in(file, std::ios::binary);

@@ -1,8 +1,8 @@
 #!/bin/bash
-# run_fuzzers.sh [--only NAME] FOLDER SECONDS [OPTION…]: runs each fuzzer in FOLDER, or one, for so
-# long, from its corpus on and from what earlier runs found, and prints how many inputs it tried.
-# Options go to libFuzzer.
-# New inputs and those that fail are kept in build/fuzzed/.
+# run_fuzzers.sh [--only NAME] FOLDER SECONDS [OPTION…]: runs each fuzzer in FOLDER, or only one,
+# for this time, and prints the number of inputs it tried. A fuzzer starts with its corpus and the
+# findings of earlier runs. Options go to libFuzzer. New and failing inputs are kept in
+# build/fuzzed/.
 set -euo pipefail
 only='*'
 if [ "$1" = --only ]; then

@@ -1,8 +1,8 @@
 #include "kernels/stream/tile.hpp"
 #include "kernels/table.hpp"
 
-// Of the kernels with a defect those that its test runs: packets of floats in the default mode, one
-// kernel for every scene and one that tells of its rays.
+// The kernels with a planted defect that its test runs: packets of floats in the default mode, one
+// kernel for every scene and one that records its rays.
 namespace packtrace::PACKTRACE_ISA {
 namespace {
 

@@ -1,16 +1,16 @@
-"""Where rays meet surfaces, in rational numbers: numbers of binary floating point are rational, so
-nothing is rounded but the last root, to 60 digits. Shares nothing with the library.
+"""Hits of rays in rational numbers. Binary floating-point numbers are rational, so only the final root
+is rounded, to 60 digits. This module shares no code with the library.
 
-Each surface has meets(org, dir): the t of its crossings, each with the error that doubles may make
-of it; None where double precision cannot be asked to tell how many there are. `is_held` says
-whether the library holds the same surface to the last bit."""
+Each surface has meets(org, dir): the t of its hits, each with the error that doubles may make; None
+if double precision cannot decide the number of hits. `is_held` says whether the library stores the
+surface without rounding."""
 
 import math
 from fractions import Fraction
 
 import packtrace as pt
 
-# What doubles may lose of a sum, as a share of its largest term: thousands of their roundoffs.
+# The error that doubles may make in a sum, relative to its largest term: thousands of roundoffs.
 BAND = Fraction(1, 10**12)
 
 
@@ -27,7 +27,7 @@ def along(org, t, direction):
 
 
 def root(x):
-    """The square root of a rational number of 0 or more, to at least 60 digits."""
+    """The square root of a rational number >= 0, to at least 60 digits."""
     bits = max(0, 400 - x.numerator.bit_length() + x.denominator.bit_length())
     bits += bits % 2
     return Fraction(math.isqrt((x.numerator << bits) // x.denominator), 1 << bits // 2)
@@ -60,8 +60,8 @@ class Sphere:
         return crossings(a, dot(w, direction), w2 - radius2, a * (w2 + radius2))
 
     def meets_again(self, point, direction, rounding):
-        """Of a ray from a point of the sphere, which was rounded by so much a coordinate; None
-        where that decides the side on which the ray leaves."""
+        """The hits of a ray from a point of the sphere. Each coordinate of the point was rounded by up to
+        `rounding`; None if that decides the side on which the ray leaves."""
         w = [x - c for x, c in zip(point, self.center)]
         way = dot(w, direction)
         if abs(way) <= 2 * dot(rounding, [abs(d) for d in direction]):
@@ -74,7 +74,7 @@ class Plane:
     def __init__(self, point, normal):
         self.point, self.normal = rational(point), rational(normal)
         self.surface = pt.Plane(tuple(point), normal=tuple(normal))
-        # The library makes normals unit, which rounds most of them.
+        # The library normalizes normals, which rounds most of them.
         self.is_held = sorted(abs(x) for x in self.normal) == [0, 0, 1]
 
     def meets(self, org, direction):
@@ -90,7 +90,7 @@ class Plane:
 
 
 class Polygon:
-    """Contours of corners (u, v) in the plane where coordinate `axis` is `height`."""
+    """Contours of corners (u, v) in the plane with coordinate `axis` equal to `height`."""
 
     is_held = True
 
@@ -118,8 +118,8 @@ class Polygon:
         return None if inside is None else [(t, error)] if inside else []
 
     def _holds(self, point, margin):
-        """Whether an odd number of edges is crossed on the way from a point along u; None within a
-        margin of an edge."""
+        """Whether a line from a point along u crosses an odd number of edges; None if the point is within
+        `margin` of an edge."""
         odd = False
         for contour in self.contours:
             for (u0, v0), (u1, v1) in zip(contour, contour[1:] + contour[:1]):
@@ -135,7 +135,7 @@ class Polygon:
 
 
 class Quadric:
-    """x·(q x) + l z + k = 0, between two heights and capped there or not."""
+    """x·(q x) + l z + k = 0, optionally clipped to a range of z and capped there."""
 
     KINDS = {"ellipsoid": ((1, 1, 1), 0, -1), "cylinder": ((1, 1, 0), 0, -1),
              "cone": ((1, 1, -1), 0, 0), "paraboloid": ((1, 1, 0), -1, 0),
@@ -198,14 +198,14 @@ class Quadric:
 
 
 def hits_along(surfaces, org, direction, t_min, t_max):
-    """(t, its error, number of the surface) of all crossings where t_min < t < t_max, in order;
-    None where doubles may count them otherwise."""
+    """(t, its error, number of the surface) of all hits with t_min < t < t_max, in order; None if
+    doubles may find another number of hits."""
     crossed = [surface.meets(org, direction) for surface in surfaces]
     return in_order(crossed, t_min, t_max)
 
 
 def in_order(crossed, t_min, t_max):
-    """The same of what each surface's meets() gave."""
+    """As hits_along(), from the results of each surface's meets()."""
     ends = [Fraction(float(t)) for t in (t_min, t_max) if not math.isinf(t)]
     hits = []
     for number, found in enumerate(crossed):
@@ -216,5 +216,5 @@ def in_order(crossed, t_min, t_max):
 
 
 def overlap(one, other):
-    """Whether doubles may see two hits on different surfaces in another order."""
+    """Whether doubles may find two hits on different surfaces in another order."""
     return one[2] != other[2] and abs(other[0] - one[0]) <= one[1] + other[1]

@@ -1,4 +1,4 @@
-"""What the tests of the Python package share."""
+"""Helpers for the tests of the Python package."""
 
 import os
 import subprocess
@@ -24,7 +24,7 @@ def hand_scene():
 
 
 def random_rays(count, dtype=np.float64, seed=1):
-    """Rays from around the origin in all directions, with columns of their own."""
+    """Random rays from around the origin in all directions, in arrays of their own."""
     random = np.random.default_rng(seed)
     origins = random.uniform(-1, 1, (3, count)).astype(dtype).T
     directions = random.normal(size=(3, count)).astype(dtype).T
@@ -32,7 +32,7 @@ def random_rays(count, dtype=np.float64, seed=1):
 
 
 def program(*words):
-    """What the program packtrace prints."""
+    """The output of the program packtrace."""
     done = subprocess.run([os.environ["PACKTRACE_PROGRAM"], *map(str, words)], capture_output=True,
                           text=True, check=False)
     if done.returncode != 0:
@@ -41,7 +41,7 @@ def program(*words):
 
 
 def rows_of_program(scene_text, columns, *options):
-    """Rows that `packtrace intersect` prints for rays of eight columns, as lists of fields."""
+    """The rows that `packtrace intersect` prints for rays of eight columns, as lists of fields."""
     with tempfile.TemporaryDirectory() as folder:
         scene, rays = Path(folder) / "a.scene", Path(folder) / "rays.csv"
         scene.write_text(scene_text)
@@ -52,7 +52,7 @@ def rows_of_program(scene_text, columns, *options):
 
 
 def resident_bytes():
-    """Memory of this process that is in use, and the most that ever was."""
+    """The memory of this process now in use, and its peak."""
     numbers = {}
     for line in Path("/proc/self/status").read_text().splitlines():
         if line.startswith(("VmRSS", "VmHWM")):
@@ -62,5 +62,5 @@ def resident_bytes():
 
 
 def reset_peak():
-    """Lets the most memory ever in use start again at what is in use now."""
+    """Resets the peak of the memory to the memory now in use."""
     Path("/proc/self/clear_refs").write_text("5")

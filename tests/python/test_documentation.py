@@ -1,4 +1,4 @@
-"""docs/python.md: its programs run, and print what stands there."""
+"""The programs of docs/python.md run, and print the output that the page shows."""
 
 import contextlib
 import io

@@ -1,6 +1,6 @@
 """Rays of the default mode against rational arithmetic (rational.py): no wrong object, no wrong
-shadow, no ray that meets the surface it leaves where there is none, t as near as its precision
-has it, bounds that hold the truth."""
+shadow, no false hit of the surface that a ray leaves, t as exact as its precision permits, and bounds
+that contain the truth."""
 
 import collections
 import math
@@ -19,7 +19,7 @@ ISAS = [isa["name"] for isa in pt.isas() if isa["supported"]]
 
 
 def power(rng, low, high):
-    """A number of any magnitude between 10^low and 10^high."""
+    """A random number between 10^low and 10^high, with a uniform logarithm."""
     return 10 ** rng.uniform(low, high)
 
 
@@ -34,7 +34,7 @@ def unit(rng):
 
 
 def shells(rng):
-    """Spheres within each other that differ by less than single precision tells apart."""
+    """Nested spheres whose radii differ by as little as single precision cannot resolve."""
     return [Sphere((0.1, 0.2, 0.3), 1 + number * 2.0 ** -rng.randint(10, 30))
             for number in range(6)]
 
@@ -44,7 +44,7 @@ def all_sizes(rng):
 
 
 def on_a_ground(rng):
-    """Balls that touch a ground of any size, or nearly do."""
+    """Balls that touch a ground of any size, or nearly touch it."""
     radius = power(rng, 2, 7)
     balls = []
     for _ in range(5):
@@ -65,12 +65,12 @@ def tiny(rng):
 
 
 def creases(rng):
-    """Spheres of one size in nearly one place."""
+    """Spheres of nearly one size in nearly one place."""
     return [Sphere(point(rng, 0.01), 1 + rng.uniform(-1, 1) * 1e-3) for _ in range(8)]
 
 
 def planes(rng):
-    """Planes that cross at any angle, one of them level, and a sphere."""
+    """Planes that intersect at any angle, one of them along the axes, and a sphere."""
     level = [0, 0, 0]
     level[rng.randrange(3)] = rng.choice([-1, 1])
     tilted = [[x + y for x, y in zip(level, point(rng, power(rng, -6, 0)))] for _ in range(2)]
@@ -79,7 +79,7 @@ def planes(rng):
 
 
 def polygons(rng):
-    """A star of any thinness, and a square with a hole, one of them near the other."""
+    """A star with arms of any width, a square with a hole close to it, and a sphere."""
     height = rng.uniform(-1, 1)
     inner = power(rng, -4, 0)
     corners = [[(1 if i % 2 == 0 else inner) * f(math.pi * i / 7) for f in (math.cos, math.sin)]
@@ -93,7 +93,7 @@ def polygons(rng):
 
 
 def quadrics(rng):
-    """Of any kind, whole, cut off or capped, as thin slabs too."""
+    """Quadrics of any kind, whole, clipped or capped, including thin slabs, and a sphere."""
     found = []
     for _ in range(rng.randint(1, 3)):
         kind = rng.choice(list(Quadric.KINDS))
@@ -110,7 +110,7 @@ FAMILIES = [*SPHERES, planes, polygons, quadrics]
 
 
 def target(rng, org, center, size):
-    """Where a ray goes: anywhere at a ball, or just beside its silhouette."""
+    """The target of a ray: anywhere at a ball, or just beside its silhouette."""
     w = [c - x for c, x in zip(center, org)]
     distance2 = sum(x * x for x in w)
     radius = size * (1 + rng.choice([-1, 1]) * power(rng, -9, -2))
@@ -125,8 +125,8 @@ def target(rng, org, center, size):
 
 
 def aimed_ray(rng, surface, dtype):
-    """Org, dir, t_min and t_max of a ray at a surface from any distance, of any length; some end or
-    begin near to a hit."""
+    """Org, dir, and t_min with t_max of a ray at a surface from any distance, with a direction of any
+    length; some ray intervals begin or end close to a hit."""
     center, size = [0, 0, 0], 1.0
     if isinstance(surface, Sphere):
         center, size = [float(x) for x in surface.center], float(surface.radius)
@@ -159,14 +159,14 @@ def aimed_rays(rng, surfaces, dtype):
 
 
 def leaving(rng, normal, dtype):
-    """A direction away from a surface on either side, often near to along it."""
+    """A direction away from a surface on either side, often nearly along it."""
     way = np.array(unit(rng))
     if rng.random() < 0.4:
         way += normal * (power(rng, -6, -1) * rng.choice([-1, 1]) - way @ normal)
     return way.astype(dtype)
 
 
-# What the library says of one ray.
+# The library's answers for one ray.
 Answer = collections.namedtuple("Answer", "object t occluded bounds objects ts")
 
 
@@ -184,7 +184,7 @@ def is_first_clear(true_hits):
 
 
 def crossed_by_start(surfaces, own, origin, point, way):
-    """What each surface's meets() gives of a ray that leaves the one of number `own`."""
+    """The results of each surface's meets() for a ray that leaves surface number `own`."""
     rounding = rational(np.spacing(abs(point)))
     return [surface.meets_again(rational(point), rational(way), rounding) if number == own
             else surface.meets(rational(origin), rational(way))
@@ -193,7 +193,7 @@ def crossed_by_start(surfaces, own, origin, point, way):
 
 class TestExactRays(unittest.TestCase):
     def check_t(self, t, at, error):
-        """Rounded once, to within what double precision may have lost before."""
+        """t is rounded once, apart from the earlier errors of double precision."""
         ulp = Fraction(float(np.spacing(type(t)(float(at)))))
         share = Fraction(51, 100) if t.dtype == np.float32 else 4
         self.assertLessEqual(abs(Fraction(float(t)) - at), error + ulp * share)
@@ -222,7 +222,7 @@ class TestExactRays(unittest.TestCase):
             self.check_t(found, t, error)
 
     def check_scene(self, rng, surfaces, dtype):
-        """Compares the rays of which doubles can tell what they hit; returns their number."""
+        """Compares the rays whose hits doubles can decide; returns their number."""
         org, way, ends = aimed_rays(rng, surfaces, dtype)
         answers = answers_of(rays_of(surfaces, rng.choice(ISAS)), org, way, *ends.T)
         checked = 0
@@ -239,7 +239,7 @@ class TestExactRays(unittest.TestCase):
         return checked
 
     def check_leaving(self, rng, surfaces, dtype):
-        """The same of rays that go on from first hits."""
+        """As check_scene(), for rays that leave first hits."""
         rays = rays_of(surfaces, rng.choice(ISAS))
         org, way, _ = aimed_rays(rng, surfaces, dtype)
         hits = rays.closest(org, way, detail="start")
@@ -258,7 +258,7 @@ class TestExactRays(unittest.TestCase):
         return checked
 
     def check_families(self, families, check, least):
-        """`least` is the share of rays that double can tell the answers of."""
+        """`least` is the smallest accepted share of rays whose answers double can decide."""
         for seed, family in enumerate(families):
             for dtype in (np.float32, np.float64):
                 with self.subTest(family=family.__name__, dtype=dtype.__name__):

@@ -1,4 +1,4 @@
-"""The Python examples run, and say what they should."""
+"""The Python examples run, and print the right results."""
 
 import os
 import re
@@ -49,7 +49,7 @@ class TestExamples(unittest.TestCase):
         self.assertAlmostEqual(lensmaker, traced, 5)
         radii = [float(number) for number in re.findall(r"RMS radius (\S+) mm", printed)]
         self.assertEqual(len(radii), 3)
-        # Spherical aberration of a fraction of a millimetre; one point; coma.
+        # Spherical aberration of a fraction of a millimetre, then a single point, then coma.
         self.assertTrue(0.05 < radii[0] < 0.5, radii)
         self.assertLess(radii[1], 1e-13)
         self.assertTrue(0.005 < radii[2] < 0.05, radii)

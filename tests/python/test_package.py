@@ -1,4 +1,4 @@
-"""The package: its stubs say what the compiled module has, and all that is public is documented."""
+"""The package: its stubs agree with the compiled module, and everything public is documented."""
 
 import ast
 import inspect

@@ -1,4 +1,4 @@
-"""Pictures: what render gives, files, comparison, and what notebooks show."""
+"""Pictures: results of render, files, comparison, and display in notebooks."""
 
 import os
 import signal
@@ -107,7 +107,7 @@ class TestRender(unittest.TestCase):
     def test_ctrl_c_stops_rendering(self):
         timer = threading.Timer(0.05, signal.raise_signal, (signal.SIGINT,))
         timer.start()
-        # Takes seconds; the signal comes long before the end.
+        # The call takes seconds; the signal arrives long before its end.
         with self.assertRaises(KeyboardInterrupt):
             pt.render(lit_scene(), width=2048, samples=64)
         timer.join()

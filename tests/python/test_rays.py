@@ -1,4 +1,4 @@
-"""Rays: answers are the program's, bit for bit; arrays are neither copied nor guessed at."""
+"""Rays: answers equal those of the program, bit for bit; arrays are neither copied nor converted."""
 
 import dataclasses
 import signal
@@ -25,7 +25,7 @@ def columns(origins, directions):
 
 class TestAnswers(unittest.TestCase):
     def check_program(self, text, dtype, **options):
-        """Closest hits, all hits and occlusion are those that the program prints."""
+        """Closest hits, all hits and occlusion equal those that the program prints."""
         words = [word for key, value in options.items() for word in (f"--{key}", value)]
         words += ["--precision", precision(dtype)]
         scene = pt.Scene.from_text(text)
@@ -109,7 +109,7 @@ class TestAnswers(unittest.TestCase):
             on = rays.closest(first.leave(directions), directions)
             every = rays.all_hits(origins, directions)
             counts = np.diff(every.offsets)
-            # Straight on, each ray meets one surface less.
+            # A ray that continues straight on hits one surface less.
             self.assertGreater((counts > 1).sum(), 100)
             self.assertGreater(np.mean(on.hit == (counts > 1)), 0.999)
             second = every.t[every.offsets[:-1][counts > 1] + 1]
@@ -124,7 +124,7 @@ class TestAnswers(unittest.TestCase):
         scene.lights = [pt.Light("point", 1, (0, 4, 5)), pt.Light("ambient", 1),
                         pt.Light("directional", 1, (0, 1, 0))]
         rays = pt.RayScene(scene)
-        # The ball's shadow on the floor: the light is 4 over its centre and 6 over the floor.
+        # The ball's shadow on the floor: the light is 4 above its centre and 6 above the floor.
         edge = 6 * np.tan(np.arcsin(1 / 4))
         places = np.array([[edge - 0.01, -2, 5], [edge + 0.01, -2, 5], [0, 0.9, 5], [0, 1.1, 5],
                            [np.nan, 0, 0]])
@@ -241,7 +241,7 @@ class TestArrays(unittest.TestCase):
         self.assertEqual(lit.closest(one, directions[3]).t, lit.closest(starts, directions).t[3])
 
     def test_the_compiled_part_reads_no_further_than_arrays_go(self):
-        # What rays.py refuses before it comes here.
+        # Arguments that rays.py refuses before they reach the compiled part.
         rays = [np.ones((10, 3)), np.ones((10, 3)), np.zeros(10), np.ones(10)]
         hits = [np.empty(10), np.empty(10, np.int32), None, None, None, None, None]
         for points, surfaces in ((10, 1), (1, 10)):
@@ -396,7 +396,7 @@ class TestArrays(unittest.TestCase):
 
 
 class TestMoving(unittest.TestCase):
-    """Answers after a move are those of a scene made anew."""
+    """Answers after a move equal those of a new scene."""
 
     def setUp(self):
         self.scene = pt.generate_random_spheres(200, 0.02)
@@ -423,7 +423,7 @@ class TestMoving(unittest.TestCase):
 
     def test_update_keeps_number_and_lights(self):
         point = np.zeros(3)
-        for first in (np.float32, None):    # which precision is made ready before
+        for first in (np.float32, None):    # the precision that is prepared in advance
             scene = pt.Scene(objects=[pt.Object(pt.Sphere((0, 3, 0), 1))],
                              lights=[pt.Light("point", 1, (0, 9, 0))])
             rays = pt.RayScene(scene, dtype=first)
@@ -474,7 +474,7 @@ class TestMoving(unittest.TestCase):
             stop.set()
             for worker in workers:
                 worker.join()
-        # Each update waits for the queries at work, not for all that come later.
+        # Each update waits for the running queries, not for all later ones.
         self.assertLess(sum(counts), 1000)
 
     def test_wrong_moves_change_nothing(self):
@@ -500,7 +500,7 @@ class TestInterrupts(unittest.TestCase):
         rays = pt.RayScene(hand_scene(), threads=1)
         count = 3_000_000
         directions = np.broadcast_to((0.0, 0.0, 1.0), (count, 3))
-        # Bounds take seconds; the signal comes long before their end.
+        # Bounds take seconds; the signal arrives long before their end.
         timer = threading.Timer(0.05, signal.raise_signal, (signal.SIGINT,))
         timer.start()
         with self.assertRaises(KeyboardInterrupt):
@@ -509,7 +509,7 @@ class TestInterrupts(unittest.TestCase):
 
 
 class TestMemory(unittest.TestCase):
-    """The peak of memory tells whether rays were copied: a copy of these takes 96 MB or more."""
+    """The peak of memory shows whether rays were copied: a copy of these takes 96 MB or more."""
 
     def peak_above(self, work):
         work()

@@ -197,7 +197,7 @@ class TestBuilding(unittest.TestCase):
 
 
 class TestErrors(unittest.TestCase):
-    """Each names the object, says what is wrong, and what to use."""
+    """Each message names the object, the fault, and a remedy."""
 
     def refuses(self, message, **fields):
         with self.assertRaisesRegex(ValueError, message):
@@ -293,7 +293,7 @@ class TestErrors(unittest.TestCase):
                      objects=[pt.Object(pt.Polygon([[(0, 0, 0), (1, 0, 0), (0, 1)]]))])
         with self.assertRaisesRegex(pt.SceneError, r"^objects\[0\]: 'radius'"):
             pt.render(pt.Scene(objects=[pt.Object(pt.Sphere(radius=0))]))
-        # A file's messages count as its names do, from 1, and say where.
+        # Messages about a text count from 1, as its names do, and give the position.
         with self.assertRaisesRegex(pt.SceneError, r"^mine:1:\d+: .*'intensity'"):
             pt.Scene.from_text("light { type = ambient intensity = -1 }", "mine")
 

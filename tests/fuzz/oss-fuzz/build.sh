@@ -9,7 +9,8 @@ for fuzzer in "$WORK"/packtrace/tests/fuzz/fuzz_*; do
     name=$(basename "$fuzzer")
     cp "$fuzzer" "$OUT/"
     (cd "$SRC/packtrace/tests/fuzz/corpus/${name#fuzz_}" && zip -q "$OUT/${name}_seed_corpus.zip" -- *)
-    # Fuzzers run without the packages that they were built with: the libraries go beside them.
+    # Fuzzers run without the packages that they were built with: their libraries are copied beside
+    # them.
     mkdir -p "$OUT/lib"
     ldd "$fuzzer" | awk '/libtbb|libpng|libdeflate/ {print $3}' | xargs -r cp -L -t "$OUT/lib"
     patchelf --set-rpath "\$ORIGIN/lib" "$OUT/$name"

@@ -1,7 +1,7 @@
 #pragma once
 
-// Stands before the real header on the include path of the planted kernels: a culling slip that
-// loses the hit of one ray in ten thousand.
+// Precedes the real header on the include path of the planted kernels. It plants a culling defect
+// that loses the hit of one ray in ten thousand.
 #define closest_hit closest_hit_of_all
 #include "../../../../src/kernels/lists/closest.hpp"
 #undef closest_hit
