@@ -1,13 +1,13 @@
-"""The tables of README.md and docs/ that come from measurements: one function for each block, from
-the content of its file in results/ to Markdown. write_figures.py puts them in their places."""
+"""The tables of README.md and docs/ that come from measurements. One function per block turns the
+contents of a file in results/ into Markdown; write_figures.py inserts it into the page."""
 import statistics
 
-# The default mode of accuracy, and the one that had its place before.
+# The default accuracy.
 DEFAULT_MODE = "exact"
 
 
 def table(head, rows, left=1):
-    """A Markdown table whose first `left` columns hold words."""
+    """A Markdown table whose first `left` columns are aligned left, the others right."""
     rule = ["---"] * left + ["---:"] * (len(head) - left)
     return "\n".join("| " + " | ".join(line) + " |" for line in [head, rule, *rows])
 
@@ -22,7 +22,7 @@ def digits(value, count=3):
 
 
 def spread(values):
-    """Median, with the lowest and the highest."""
+    """Median, minimum and maximum."""
     return f"{statistics.median(values):.2f} ({min(values):.2f} … {max(values):.2f})"
 
 
@@ -33,13 +33,13 @@ def source(context):
 # Races against Embree: peers.json
 
 def fastest(tracers, start, end=""):
-    """The fastest tracer, by the median, whose name begins and ends so; None where there is none."""
+    """The tracer with the highest median rate whose name has this start and end; None if there is none."""
     found = [t for t in tracers if t["tracer"].startswith(start) and t["tracer"].endswith(end)]
     return max(found, key=lambda t: t["mrays_median"], default=None)
 
 
 def over(tracer, peer):
-    """How many times as fast as a peer, pass by pass."""
+    """The speed relative to a peer, over pairs of passes."""
     if tracer is None:
         return "–"
     return spread([theirs / ours for ours, theirs in zip(tracer["seconds"], peer["seconds"])])
@@ -100,7 +100,7 @@ def peers_frames(report):
     return f"{source(report['context'])}\n\n" + table(head, rows)
 
 
-# What `exact` costs: exact_cost.json
+# The cost of `exact`: exact_cost.json
 
 def exact_ratio(row, mode):
     ratio = row.get(f"exact_over_{mode}")
@@ -148,7 +148,7 @@ def exact_cost_ranges(report):
     return f"Commit {report['commit']}:\n\n" + "\n".join(lines)
 
 
-# Growth: scaling.json
+# Scaling with objects and pixels: scaling.json
 
 def at(points, study, **wanted):
     return next((p for p in points if p["study"] == study and
@@ -186,7 +186,7 @@ def scaling_pixels(report):
                  rows, 0)
 
 
-# What lanes give and what the algorithm gives: lanes.json
+# Gains by lanes and by the algorithm: lanes.json
 
 def lanes(report):
     context = report["context"]
@@ -290,7 +290,7 @@ def stress_modes(report):
 
 
 def by(key, parts):
-    """Lists of the parts that have the same value there, by this value."""
+    """Groups the parts by their value of `key`."""
     groups = {}
     for part in parts:
         groups.setdefault(part[key], []).append(part)
@@ -302,7 +302,7 @@ def total(key, parts):
 
 
 def found(key, findings):
-    """What was found, a row for each cause; nothing where nothing was."""
+    """A table of findings with a row for each cause; empty without findings."""
     if not findings:
         return ""
     causes = dict.fromkeys((f["cause"], f["mended"]) for f in findings)
@@ -335,8 +335,8 @@ def fuzz(report):
 
 # Instructions and cycles of kernels: instructions.json, roofline.json
 
-# Vectors of 8 floats: what Zen 3 begins in a cycle at most, from AMD's "Software Optimization Guide
-# for AMD EPYC 7003": instructions in all, and products, fused or not.
+# For vectors of 8 floats, the most that Zen 3 can start in a cycle, from AMD's "Software Optimization
+# Guide for AMD EPYC 7003": instructions of all kinds, and products, fused or not.
 DISPATCHED = 6
 PRODUCTS = 2
 ARITHMETIC = ("single", "double", "conversion", "division, root")
@@ -393,7 +393,7 @@ def roofline(report):
             f"`{report['isa']}`, for {report['pixels']} pixels.\n\n{table(head, rows, 2)}\n\n{waits}")
 
 
-# The name of a block after its file, as markers give it: results/peers.json: summary.
+# By the name of a block in markers, after its file: results/peers.json: summary.
 TABLES = {
     "results/peers.json: summary": peers_summary,
     "results/peers.json: rates": peers_rates,

@@ -3,11 +3,11 @@
 
 Usage: docs/write_figures.py [--check] [ROOT]
 
-A block stands between <!-- from FILE --> and <!-- end -->. FILE is a source of examples/, or a file
+A block is between <!-- from FILE --> and <!-- end -->. FILE is a source of examples/, or a file
 of results/ with the name of one of its tables (result_tables.py): <!-- from results/peers.json: rates -->.
 
---check writes nothing. It names everything that does not hold, and exits 1:
-  - a block is not what its file gives;
+--check writes nothing. It exits 1 and names every fault:
+  - a block differs from the contents of its file;
   - a page cites a file of results/ that is missing;
   - a page states a measured figure in a section that names no file of results/;
   - a result does not name a clean commit, and results/unsigned.json does not list it with a reason;
@@ -34,7 +34,7 @@ def pages(root):
 
 
 def content_of(root, source):
-    """What a block from this source holds. Raises ValueError where that cannot be told."""
+    """The contents of a block from this source. Raises ValueError if the source is missing or unknown."""
     path = root / source.split(":")[0]
     if not path.is_file():
         raise ValueError(f"{source.split(':')[0]} is missing")
