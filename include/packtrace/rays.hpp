@@ -42,8 +42,8 @@ struct HitsView {
     Real* normal_x = nullptr;        ///< unit, outwards
     Real* normal_y = nullptr;
     Real* normal_z = nullptr;
-    // The arrays below may be null, and need the arrays of normals. The scalar kernel does not fill
-    // them.
+    // The arrays below may be null. Points and starts need the arrays of normals. The scalar kernel
+    // fills none of them.
     /// Origins for rays that leave the hit on the outer or the inner side of the surface. With
     /// SelfHits::exact such a ray does not hit the point it starts at, at any t > 0. With
     /// SelfHits::note they are the hit point. NaN for a miss.
