@@ -1,13 +1,15 @@
 #!/usr/bin/env python3
-"""Which small scenes are traced in registers, and how fast: results/crowding.json.
+"""Which small scenes are traced in registers, and how fast: results/crowding.json, crowding_fast.json.
 
-Times of frames of random spheres in a cube whose squared radii add up to `cover`: one thread, lists,
-default mode. Runs alternate with the streams of the general kernel and with an earlier build that
-traces all these scenes in registers.
+Times of frames of random spheres in a cube whose squared radii add up to `cover`: one thread, lists.
+Runs alternate with the streams of the general kernel. With BEFORE they are in the default mode and
+alternate also with an earlier build that traces all these scenes in registers; without it they are
+in `fast` mode.
 
-usage: results/crowding.py BUILD BEFORE [REPETITIONS]
+usage: results/crowding.py BUILD [BEFORE [REPETITIONS]]
 BUILD and BEFORE are build folders with `packtrace`.
 """
+import itertools
 import json
 import statistics
 import subprocess
@@ -33,33 +35,47 @@ def is_in_registers(build, scene):
     return IN_REGISTERS in done.stdout
 
 
+def ways_of(build, before):
+    """The builds and options to compare, by name."""
+    by_list = ["--traversal", "list"] if before else ["--traversal", "list", "--accuracy", "fast"]
+    ways = {"now": (build, by_list), "streams": (build, [*by_list, "--force-general"])}
+    if before:
+        ways["registers"] = (before, by_list)
+    return ways
+
+
+def row_of(times):
+    row = {way: statistics.median(found) for way, found in times.items()}
+    row["streams_over_now"] = share(times["streams"], times["now"])
+    if "registers" in times:
+        row["streams_over_registers"] = share(times["streams"], times["registers"])
+        row["registers_over_now"] = share(times["registers"], times["now"])
+    return row
+
+
 def main():
-    if len(sys.argv) not in (3, 4):
+    if len(sys.argv) not in (2, 3, 4):
         sys.exit(__doc__)
-    by_list = ["--traversal", "list"]
-    ways = {"now": (sys.argv[1], by_list), "streams": (sys.argv[1], [*by_list, "--force-general"]),
-            "registers": (sys.argv[2], by_list)}
-    repetitions = int(sys.argv[3]) if len(sys.argv) == 4 else 9
-    report = {"command": "results/crowding.py build/release BEFORE", "commit": commit_of_build(sys.argv[1]),
-              "before": commit_of_build(sys.argv[2]), "machine": machine(), "repetitions": repetitions, "rows": []}
+    build, before, repetitions = [*sys.argv[1:], None, None][:3]
+    ways = ways_of(build, before)
+    repetitions = int(repetitions or 9)
+    report = {"command": f"results/crowding.py build/release{' BEFORE' if before else ''}",
+              "commit": commit_of_build(build), "before": commit_of_build(before) if before else None,
+              "machine": machine(), "repetitions": repetitions, "rows": []}
     with tempfile.TemporaryDirectory() as folder:
         scene = f"{folder}/scene.scene"
-        for mirror in (0, 0.4):
-            for cover in COVERS:
-                for count in COUNTS:
-                    make(sys.argv[1], scene, count, cover, mirror)
-                    for isa in ("avx512", "avx2"):
-                        times = by_turns(ways, repetitions,
-                                         lambda way: frame_milliseconds(way[0], scene, 512, isa, folder, way[1]))
-                        row = {"spheres": count, "cover": cover, "mirror": mirror, "isa": isa,
-                               "in_registers": is_in_registers(sys.argv[1], scene),
-                               **{way: statistics.median(times[way]) for way in ways},
-                               "streams_over_registers": share(times["streams"], times["registers"]),
-                               "registers_over_now": share(times["registers"], times["now"])}
-                        print(json.dumps(row))
-                        report["rows"].append(row)
+        for mirror, cover, count in itertools.product((0, 0.4), COVERS, COUNTS):
+            make(build, scene, count, cover, mirror)
+            for isa in ("avx512", "avx2"):
+                times = by_turns(ways, repetitions,
+                                 lambda way: frame_milliseconds(way[0], scene, 512, isa, folder, way[1]))
+                row = {"spheres": count, "cover": cover, "mirror": mirror, "isa": isa, **row_of(times)}
+                if before:
+                    row["in_registers"] = is_in_registers(build, scene)
+                print(json.dumps(row))
+                report["rows"].append(row)
     report["machine_after"] = machine()
-    write(report, "crowding.json")
+    write(report, "crowding.json" if before else "crowding_fast.json")
 
 
 if __name__ == "__main__":

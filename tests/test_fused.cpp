@@ -14,9 +14,9 @@
 namespace packtrace::test {
 namespace {
 
-bool in_registers(const Scene& scene, const std::string& isa)
+bool in_registers(const Scene& scene, const std::string& isa, Accuracy accuracy = Accuracy::exact)
 {
-    LoweredScene lowered = lower(scene);
+    LoweredScene lowered = lower(scene, accuracy);
     prune(lowered);
     const auto& table = precision<float>(kernels_of(isa));
     const PackedScene<float> packed(lowered,
@@ -29,17 +29,30 @@ struct Frame {
     abi::RayCounts counts;
 };
 
-/// Renders in tiles, as frames are; with `streams`, in streams of the general kernel.
-Frame render_tiles(const Scene& scene, const std::string& isa, bool streams, int samples = 1)
+/// Renders in tiles, as frames are; with `force_general`, in streams of the general kernel.
+Frame render_tiles(const Scene& scene, const std::string& isa, const RenderOptions& options)
 {
-    const RenderOptions options{.force_general = streams, .samples = samples};
-    const TileRenderer<float> tiles(scene, lower(scene), kernels_of(isa), options);
+    const TileRenderer<float> tiles(scene, lower_for<float>(scene, options), kernels_of(isa),
+                                    options);
     Frame frame{Image<float>(scene.width, scene.height), {}};
     const TileGrid grid({0, 0, scene.width, scene.height});
     for (int tile = 0; tile < grid.count(); ++tile)
         frame.counts += tiles.render(frame.image, grid[tile]);
     return frame;
 }
+
+/// The same frame in registers, if the scene allows, and in streams.
+struct BothWays {
+    Frame registers;
+    Frame streams;
+
+    BothWays(const Scene& scene, const std::string& isa, RenderOptions options = {})
+        : registers(render_tiles(scene, isa, options))
+    {
+        options.force_general = true;
+        streams = render_tiles(scene, isa, options);
+    }
+};
 
 Scene note_scene()
 {
@@ -50,25 +63,29 @@ Scene note_scene()
 
 TEST_CASE("paths in registers give the same bits as streams", "[fused]")
 {
+    const Accuracy accuracy = GENERATE(Accuracy::exact, Accuracy::fast);
     unsigned traced = 0;
     for (unsigned seed = 1; seed <= scene_count(150); ++seed) {
         const Scene scene = FewObjects(seed).scene;
         for (const std::string& isa : supported_isas()) {
-            traced += in_registers(scene, isa);
-            CAPTURE(seed, isa);
-            CHECK(same_bits(render_tiles(scene, isa, false).image,
-                            render_tiles(scene, isa, true).image));
+            traced += in_registers(scene, isa, accuracy);
+            CAPTURE(seed, isa, accuracy == Accuracy::exact);
+            const BothWays frames(scene, isa, {.accuracy = accuracy});
+            CHECK(same_bits(frames.registers.image, frames.streams.image));
         }
     }
-    CHECK(traced >= scene_count(150) * supported_isas().size() / 2);
+    const std::size_t sets = accuracy == Accuracy::exact ? supported_isas().size() : 1;
+    CHECK(traced >= scene_count(150) * sets / 2);
 }
 
 TEST_CASE("paths in registers trace the same rays as streams", "[fused]")
 {
+    const Accuracy accuracy = GENERATE(Accuracy::exact, Accuracy::fast);
     for (const std::string& isa : supported_isas()) {
-        CAPTURE(isa);
-        const abi::RayCounts streams = render_tiles(note_scene(), isa, true).counts;
-        const abi::RayCounts registers = render_tiles(note_scene(), isa, false).counts;
+        CAPTURE(isa, accuracy == Accuracy::exact);
+        const BothWays frames(note_scene(), isa, {.accuracy = accuracy});
+        const abi::RayCounts& streams = frames.streams.counts;
+        const abi::RayCounts& registers = frames.registers.counts;
         CHECK(registers.camera == streams.camera);
         CHECK(registers.shadow == streams.shadow);
         CHECK(registers.reflected == streams.reflected);
@@ -82,13 +99,32 @@ TEST_CASE("pictures with several samples a pixel are traced in registers too", "
     set_size(scene, 70, 45);
     for (const std::string& isa : supported_isas()) {
         CAPTURE(isa);
-        CHECK(same_bits(render_tiles(scene, isa, false, 4).image,
-                        render_tiles(scene, isa, true, 4).image));
+        const BothWays frames(scene, isa, {.samples = 4});
+        CHECK(same_bits(frames.registers.image, frames.streams.image));
     }
     RenderOptions options{.samples = 8, .adaptive = 0.05};
     const Image<float> registers = render<float>(scene, options);
     options.force_general = true;
     CHECK(same_bits(registers, render<float>(scene, options)));
+}
+
+TEST_CASE("fast mode traces in registers where kernels are compiled for feature sets", "[fused]")
+{
+    Scene scene = note_scene();
+    for (const std::string& isa : supported_isas()) {
+        CAPTURE(isa);
+        const auto& table = precision<float>(kernels_of(isa));
+        const bool has_sets = table.kernels[0].render_tiles != nullptr;
+        CHECK(in_registers(scene, isa, Accuracy::fast) == has_sets);
+    }
+    // More objects are traced in registers only if no ray is reflected.
+    const std::string isa = choose_isa().name;
+    for (int i = 0; i < 20; ++i)
+        scene.objects.push_back(make_object(sphere(Vec3(0.5 * i, 5, 9), 0.1)));
+    CHECK_FALSE(in_registers(scene, isa, Accuracy::fast));
+    scene.max_depth = 0;
+    CHECK(in_registers(scene, isa, Accuracy::fast) ==
+          in_registers(note_scene(), isa, Accuracy::fast));
 }
 
 TEST_CASE("scenes that registers have no room for are traced in streams", "[fused]")

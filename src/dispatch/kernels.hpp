@@ -36,7 +36,7 @@ template <class Real>
 }
 
 /// If lines cross more objects than this, neighbouring paths diverge soon, and stream kernels,
-/// which compact the rays that continue, are faster (results/crowding.json).
+/// which compact the rays that continue, are faster (results/crowding.json, crowding_fast.json).
 inline constexpr double most_crossed_in_registers = 1.75;
 
 /// The kernels that trace frames of a scene in registers; null if stream kernels trace them.

@@ -126,9 +126,9 @@ struct FusedKernels {
     RayCounts (*render_tiles)(const TileJob<Real>* tiles, int count) = nullptr;
 };
 
-/// The first set is for spheres and planes whose mirrors are not tinted, the second for everything
-/// but glass.
-inline constexpr int fused_set_count = 2;
+/// In exact mode, the first set is for spheres and planes whose mirrors are not tinted, the second
+/// for everything but glass. The third is for everything but glass in fast mode.
+inline constexpr int fused_set_count = 3;
 struct FusedTable {
     FusedKernels<float> set[fused_set_count] = {};
 };

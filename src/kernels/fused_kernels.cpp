@@ -13,8 +13,15 @@ constexpr abi::FusedKernels<float> fused_kernels_for()
 constexpr abi::Features spheres{.exact = true};
 constexpr abi::Features all_without_glass{.quadrics = true, .colored = true, .exact = true};
 
+#if PACKTRACE_FEATURE_SETS
+constexpr abi::FusedKernels<float> fast =
+    fused_kernels_for<abi::Features{.quadrics = true, .colored = true}>();
+#else
+constexpr abi::FusedKernels<float> fast;
+#endif
+
 constexpr abi::FusedTable fused = {
-    {fused_kernels_for<spheres>(), fused_kernels_for<all_without_glass>()}};
+    {fused_kernels_for<spheres>(), fused_kernels_for<all_without_glass>(), fast}};
 
 }  // namespace
 

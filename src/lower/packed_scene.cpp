@@ -167,6 +167,8 @@ PackedScene<Real>::PackedScene(const LoweredScene& lowered, Traversal traversal,
     view_.tree = bvh_.view();
     lists_.show(view_);
     view_.shapes = shapes_.view();
+    if (sizeof(Real) == sizeof(float))
+        view_.certifiable = certifiable(lowered);
     if (sizeof(Real) == sizeof(float) && lowered.features.exact)
         pack_wide(lowered);
     pack_materials(lowered);
@@ -203,10 +205,11 @@ void PackedScene<Real>::refit(const LoweredScene& lowered, const Bvh& bvh)
     shapes_.move(lowered);
     view_.tree = bvh_.view();
     view_.shapes = shapes_.view();
+    if (sizeof(Real) == sizeof(float))
+        view_.certifiable = certifiable(lowered);
     if (view_.wide == nullptr)
         return;
     wide_.tree = bvh_.wide_view(shapes_.view());
-    view_.certifiable = certifiable(lowered);
     choose_light_ends(lowered);
 }
 
@@ -218,7 +221,6 @@ void PackedScene<Real>::pack_wide(const LoweredScene& lowered)
     if (!bvh_.view().empty())
         wide_.tree = bvh_.wide_view(shapes_.view());
     view_.wide = &wide_;
-    view_.certifiable = certifiable(lowered);
 }
 
 template <class Real>

@@ -21,10 +21,16 @@ inline bool are_bounded(const abi::GeometryView<float>& scene)
     return bounded;
 }
 
+/// In fast mode reflected rays are tested against all objects. With more of them, streams, which
+/// find those near, are faster.
+inline constexpr int most_mirrored_in_fast = 16;
+
 template <abi::Features F>
 inline bool can_fuse(const abi::SceneView<float>& scene)
 {
-    return scene.wide != nullptr && has_few_objects(scene) && are_bounded(scene) &&
+    const bool few = has_few_objects(scene) && (F.exact || scene.rules.max_depth == 0 ||
+                                                listed_objects(scene) <= most_mirrored_in_fast);
+    return few && (scene.wide != nullptr) == F.exact && are_bounded(scene) &&
            !scene.lighting.flat && scene.rules.start_error > 0 && !(scene.rules.min_weight > 0);
 }
 
@@ -49,13 +55,12 @@ inline void make_plan(const abi::SceneView<float>& scene, const abi::CameraView<
     fill_plan(*plan, scene, camera);
 }
 
-/// Finds the objects that camera rays through a tile may hit.
+/// Finds the objects for find_common_hit() that camera rays through a tile may hit.
 template <abi::Features F>
-inline void find_visible(const FusedTile<F>& tile, const Cone<float>& cone)
+inline void find_candidates(const FusedTile<F>& tile, const Cone<float>& cone)
 {
     const FramePlan<F>& plan = tile.plan;
-    FusedMemory<F>& memory = tile.memory;
-    CommonLists& candidates = memory.candidates;
+    CommonLists& candidates = tile.memory.candidates;
     for_each_met(cone, tile.scene.spheres, [&](int first, std::uint32_t kept, const Vec3v<float>&) {
         for (; kept != 0; kept &= kept - 1)
             candidates.spheres.next() = plan.common.spheres.first[first + __builtin_ctz(kept)];
@@ -76,8 +81,23 @@ inline void find_visible(const FusedTile<F>& tile, const Cone<float>& cone)
                 candidates.balls.next() = *ball;
             ++ball;
         });
+    }
+}
+
+/// Finds the objects that camera rays through a tile may hit; returns whether there are any.
+template <abi::Features F>
+inline bool find_visible(const FusedTile<F>& tile, const Cone<float>& cone)
+{
+    FusedMemory<F>& memory = tile.memory;
+    if constexpr (lists_by_tile<F>) {
         find_objects<F>(memory.visible, cone, tile.scene);
         sort_by_distance<F>(memory.visible);
+    }
+    if constexpr (F.exact) {
+        find_candidates(tile, cone);
+        return !memory.candidates.empty();
+    } else {
+        return !memory.visible.empty();
     }
 }
 
@@ -114,8 +134,7 @@ inline abi::RayCounts trace_fused_tile(const abi::TileJob<float>& job)
     const float(&origin)[3] = job.camera->origin;
     const FusedTile<F> tile{
         scene, plan, memory, counts, {origin[0], origin[1], origin[2]}, job.camera->t_min};
-    find_visible(tile, camera_cone(job));
-    if (memory.candidates.empty() && !(scene.lighting.seen_within > 0)) {
+    if (!find_visible(tile, camera_cone(job)) && !(scene.lighting.seen_within > 0)) {
         fill_pixels(memory.color, scene.rules.background);
         write_tile(job, memory.color);
         return counts;

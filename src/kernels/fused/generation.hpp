@@ -1,25 +1,13 @@
 #pragma once
 
 #include "kernels/fused/clear_way.hpp"
-#include "kernels/precision/refine.hpp"
+#include "kernels/fused/find_hits.hpp"
 #include "kernels/stream/spawn.hpp"
-#include "kernels/stream/trace_stream.hpp"
 
 // Traces one generation of a packet of paths: its hits, their light, and the reflected rays that
 // replace its rays. The operations, and so the bits, are those of streams.
 namespace packtrace::PACKTRACE_ISA {
 namespace {
-
-/// The objects for reflected rays that start outside the plan's origins.
-template <abi::Features F>
-[[gnu::noinline]] const FilteredObjects<Origin::any>& objects_from_far(const FusedTile<F>& tile,
-                                                                       const Vec3v<float>& place,
-                                                                       std::uint32_t active)
-{
-    FilteredObjects<Origin::any>& objects = tile.memory.from_far;
-    find_objects<F>(objects, origins_of_lanes(place, active), tile.scene);
-    return objects;
-}
 
 /// The possible occluders of a light, by light, for hits outside the plan's origins. For a light
 /// that sends rays they are those of the plan.
@@ -35,44 +23,6 @@ template <abi::Features F>
     find_objects<F>(occluders[light].along, origins_of_lanes(place, active),
                     casters_of(tile.scene));
     return occluders;
-}
-
-/// The objects for a tile's camera rays; if tests are expensive, only those that its cone may hit.
-template <abi::Features F>
-inline const FilteredObjects<Origin::shared>& objects_from_camera(const FusedTile<F>& tile)
-{
-    return F.quadrics ? tile.memory.visible : tile.plan.from_camera;
-}
-
-/// The closest hits of a packet by the search in lists, where find_common_hit() cannot decide. Its
-/// parameters are copies, so that the caller's values stay in registers.
-template <Generation G, abi::Features F>
-[[gnu::noinline]] void find_any_hits(HitState& hit, const FusedTile<F>& tile,
-                                     const RayPacket<float>& rays, bool is_far,
-                                     const PathStart& path_start, std::uint32_t active)
-{
-    const vreal<float> no_end_yet(__builtin_inff());
-    const StartPacket<float> start =
-        G == Generation::camera ? no_start<float>() : start_of(path_start);
-    HitPacket<float> found = start_of_search<F>(start, rays.dir2, no_end_yet);
-    if constexpr (G == Generation::camera) {
-        closest_hit<F>(found, objects_from_camera(tile), rays, NoOwn{});
-    } else {
-        const FilteredObjects<Origin::any>& objects =
-            is_far ? objects_from_far(tile, rays.org, active) : tile.plan.from_near;
-        closest_hit<F>(found, objects, rays, ActiveOwn{start.surface, path_start.common, active});
-    }
-    count_unsure(tile.counts,
-                 correct_packet<F>(tile.scene, rays, found, start, no_end_yet, active));
-    hit.lanes = hit_lanes(found) & active;
-    if (hit.lanes == 0)
-        return;
-    const RefinedHits<float> places =
-        refined<F, Refine::place>(tile.scene.shapes, rays, found, start, hit.lanes);
-    hit.point = places.point;
-    hit.outward = places.normal;
-    hit.number = found.surface;
-    hit.common = static_cast<std::int32_t>(common_number<float>(found.surface, hit.lanes));
 }
 
 /// A packet of hits while it is shaded.
@@ -155,9 +105,10 @@ inline std::uint32_t lit_lanes(const FusedTile<F>& tile, const PlanLight& light,
     if (shadow.open == 0)
         return clear;
     const LightObjects<F, float>* occluders = tile.plan.occluders;
-    if (hits.is_far)
-        occluders =
-            occluders_from_far(tile, light.number, Vec3v<float>(hits.at.point), hits.at.lanes);
+    if constexpr (F.exact)
+        if (hits.is_far)
+            occluders =
+                occluders_from_far(tile, light.number, Vec3v<float>(hits.at.point), hits.at.lanes);
     const SurfacePacket<float> surface = lit_surface(hits, dir, tile.scene.rules.start_error);
     const LightPacket<float> copy = packet;
     return clear | trace_to_light(tile, light.number, occluders, surface, copy, shadow.open);
@@ -297,30 +248,6 @@ inline void turn_hits(LitHits& hits, const FusedTile<F>& tile, const Vec3v<float
     hits.again |= turned.leaving;
 }
 
-/// Finds the hits of the active rays of a packet.
-template <Generation G, abi::Features F>
-inline void find_hits(const FusedTile<F>& tile, const CommonLists& candidates,
-                      const PathState<F>& path, PathStart& start)
-{
-    HitState& hit = start.at;
-    CommonHit common;
-    constexpr Origin origin = G == Generation::camera ? Origin::shared : Origin::any;
-    const std::int32_t own = G == Generation::camera ? -1 : start.common;
-    if (path.is_plain && find_common_hit<Refine::place, origin>(
-                             common, tile.plan.common, candidates, rays_of<G>(tile, path),
-                             tile.camera_origin, own, path.active)) {
-        hit.point = common.point;
-        hit.outward = common.outward;
-        hit.common = common.surface;
-        hit.lanes = common.lanes;
-        return;
-    }
-    const RayPacket<float> rays = rays_of<G>(tile, path);
-    HitState found;
-    find_any_hits<G>(found, tile, rays, path.is_far, start, path.active);
-    hit = found;
-}
-
 /// Adds the lights at a packet's hits, and replaces its rays by reflected ones.
 template <Generation G, abi::Features F>
 inline void shade_hits(const FusedTile<F>& tile, PathState<F>& path, PathStart& start,
@@ -351,7 +278,9 @@ inline void trace_generation(const FusedTile<F>& tile, const CommonLists& candid
     path.active = 0;
     if (hit.lanes == 0)
         return;
-    tile.counts.passed |= abi::passed_hits | abi::passed_normals | abi::passed_refined;
+    tile.counts.passed |= abi::passed_hits | abi::passed_normals;
+    if constexpr (F.exact)
+        tile.counts.passed |= abi::passed_refined;
 
     const PlanMaterial* material = tile.plan.surfaces[hit.common].material;
     PlanMaterial mixed;

@@ -46,9 +46,10 @@ inline void add_anchored(ClearTests& tests, const abi::SceneView<float>& casters
                          const abi::LightRecord<float>& light, const Origins& origins,
                          double extent)
 {
-    const auto& list = casters.wide->anchored_spheres;
+    const auto& list = casters.anchored_spheres;
     for (int i = 0; i < list.count; ++i) {
-        const abi::AnchoredSphere<double>& sphere = list.data[i];
+        const abi::SurfaceIndex& index = casters.shapes.index[list.data[i].surface];
+        const abi::AnchoredSphere<double>& sphere = casters.shapes.anchored_spheres[index.record];
         double to[3];
         for (int axis = 0; axis < 3; ++axis)
             to[axis] = light.kind == abi::LightKind::point ? double{light.vector[axis]}
@@ -71,9 +72,10 @@ inline void add_anchored(ClearTests& tests, const abi::SceneView<float>& casters
 inline void add_planes(ClearTests& tests, const abi::SceneView<float>& casters,
                        const abi::LightRecord<float>& light, double extent)
 {
-    const auto& list = casters.wide->planes;
+    const auto& list = casters.planes;
     for (int i = 0; i < list.count; ++i) {
-        const abi::PlaneRecord<double>& plane = list.data[i];
+        const abi::SurfaceIndex& index = casters.shapes.index[list.data[i].surface];
+        const abi::PlaneRecord<double>& plane = casters.shapes.planes[index.record];
         double height = 0;
         for (int axis = 0; axis < 3; ++axis)
             height += plane.normal[axis] * (light.kind == abi::LightKind::point
@@ -86,8 +88,16 @@ inline void add_planes(ClearTests& tests, const abi::SceneView<float>& casters,
     }
 }
 
-/// Whether a ball is a sphere itself, or the bounding ball of another object.
-enum class BallOf { sphere, other };
+/// What a ball is: a sphere itself, the bounding ball of another object, or of another object that
+/// is tested in fast mode. Those tests may find a hit behind the ball.
+enum class BallOf { sphere, other, rough };
+
+/// The ball around what the test of another object in fast mode takes as near (near_ball()).
+inline RoundedBall rough_ball(RoundedBall ball, double extent)
+{
+    ball.radius = above(1.001 * ball.radius + 2e-5 * (extent + size_of(ball.center)));
+    return ball;
+}
 
 inline void add_across(ClearTests& tests, const RoundedBall& ball, const double (&light)[3],
                        double extent, BallOf of)
@@ -107,7 +117,9 @@ inline void add_across(ClearTests& tests, const RoundedBall& ball, const double 
     sphere.center[1] = static_cast<float>(across[1]);
     sphere.outer2 = static_cast<float>(outer * outer * (1.0 + clear_slack));
     const double past = along + outer * __builtin_sqrt(length2) * (1.0 + clear_slack);
-    sphere.along = static_cast<float>(past + clear_slack * __builtin_fabs(past));
+    sphere.along = of == BallOf::rough
+                       ? __builtin_inff()
+                       : static_cast<float>(past + clear_slack * __builtin_fabs(past));
     const double before = along - outer * __builtin_sqrt(length2) * (1.0 + clear_slack);
     sphere.before = static_cast<float>(before - clear_slack * __builtin_fabs(before));
     const double inner = 2.0 * double{ball.radius} * (1.0 - clear_slack) - outer;
@@ -134,7 +146,8 @@ inline void add_cone(ClearTests& tests, const RoundedBall& ball, const float (&l
     const double edge2 = distance2 * (1.0 - clear_slack) - outer * outer;
     sphere.edge = edge2 > 0 ? static_cast<float>(__builtin_sqrt(edge2) * (1.0 - clear_slack))
                             : -__builtin_inff();
-    sphere.outer2 = static_cast<float>(outer * outer * (1.0 + clear_slack));
+    sphere.outer2 = of == BallOf::rough ? __builtin_inff()
+                                        : static_cast<float>(outer * outer * (1.0 + clear_slack));
     const double inner = 2.0 * double{ball.radius} * (1.0 - clear_slack) - outer;
     const double inner_edge2 = distance2 * (1.0 + clear_slack) - inner * inner;
     sphere.inner_edge = of == BallOf::sphere && inner > 0 && edge2 > 0
@@ -145,15 +158,18 @@ inline void add_cone(ClearTests& tests, const RoundedBall& ball, const float (&l
 
 /// Calls `add(ball, of)` for the balls of a light's possible occluders. An object without a ball
 /// makes the tests incomplete.
-template <class Add>
-inline void add_balls(ClearTests& tests, const abi::SceneView<float>& casters, const Add& add)
+template <abi::Features F, class Add>
+inline void add_balls(ClearTests& tests, const abi::SceneView<float>& casters, double extent,
+                      const Add& add)
 {
     for (int i = 0; i < casters.spheres.count; ++i)
         add(ball_of(casters.spheres, i), BallOf::sphere);
     for_each_other(casters, [&](const auto& record) {
         const RoundedBall ball = ball_of(record);
-        if (ball.radius < __builtin_inff())
+        if (ball.radius < __builtin_inff() && F.exact)
             add(ball, BallOf::other);
+        else if (ball.radius < __builtin_inff())
+            add(rough_ball(ball, extent), BallOf::rough);
         else
             tests.complete = false;
     });
@@ -184,6 +200,7 @@ inline void set_axes(float (&axis)[2][3], const double (&v)[3])
     }
 }
 
+template <abi::Features F>
 inline void make_clear_tests(ClearTests& tests, const abi::SceneView<float>& scene,
                              const abi::LightRecord<float>& light, const Origins& origins)
 {
@@ -204,12 +221,12 @@ inline void make_clear_tests(ClearTests& tests, const abi::SceneView<float>& sce
     add_anchored(tests, casters, light, origins, extent);
     add_planes(tests, casters, light, extent);
     if (light.kind == abi::LightKind::point)
-        return add_balls(tests, casters, [&](const RoundedBall& ball, BallOf of) {
+        return add_balls<F>(tests, casters, extent, [&](const RoundedBall& ball, BallOf of) {
             add_cone(tests, ball, light.vector, extent, of);
         });
     const double direction[3] = {light.vector[0], light.vector[1], light.vector[2]};
     set_axes(tests.axis, direction);
-    add_balls(tests, casters, [&](const RoundedBall& ball, BallOf of) {
+    add_balls<F>(tests, casters, extent, [&](const RoundedBall& ball, BallOf of) {
         add_across(tests, ball, direction, extent, of);
     });
 }
@@ -361,15 +378,29 @@ inline void fill_surfaces(FramePlan<F>& plan, const abi::SceneView<float>& scene
     });
 }
 
+/// Prepares the objects for rays from `origins`; in fast mode, which has no error bounds, for rays
+/// from anywhere.
+template <abi::Features F>
+inline void find_from_near(FromAnywhere<F, float>& objects, const Origins& origins,
+                           const abi::SceneView<float>& scene)
+{
+    if constexpr (F.exact)
+        find_objects<F>(objects, origins, scene);
+    else
+        find_objects<F>(objects, Cone<float>{}, scene);
+}
+
 /// Fills a plan whose arrays have memory.
 template <abi::Features F>
 inline void fill_plan(FramePlan<F>& plan, const abi::SceneView<float>& scene,
                       const abi::CameraView<float>& camera)
 {
-    find_from_point<F, float>(plan.from_camera, camera.origin, scene);
-    sort_by_distance<F>(plan.from_camera);
+    if constexpr (F.exact) {
+        find_from_point<F, float>(plan.from_camera, camera.origin, scene);
+        sort_by_distance<F>(plan.from_camera);
+    }
     plan.origins = near_origins(scene, camera.origin, camera.origin);
-    find_objects<F>(plan.from_near, plan.origins, scene);
+    find_from_near<F>(plan.from_near, plan.origins, scene);
     fill_common(plan.common, scene, plan.origins, camera.origin);
     fill_materials(plan, scene);
     fill_surfaces(plan, scene);
@@ -379,14 +410,14 @@ inline void fill_plan(FramePlan<F>& plan, const abi::SceneView<float>& scene,
         PlanLight& planned = plan.lights.first[i];
         planned.record = light;
         planned.number = i;
-        make_clear_tests(planned.clear, scene, light, plan.origins);
+        make_clear_tests<F>(planned.clear, scene, light, plan.origins);
         find_all_needed<F>(planned.clear, scene, light);
         if (!light.casts_shadow)
             continue;
         if (light.sends_rays)
             find_from_point<F, float>(plan.occluders[i].from_point, light.vector, casters);
         else
-            find_objects<F>(plan.occluders[i].along, plan.origins, casters);
+            find_from_near<F>(plan.occluders[i].along, plan.origins, casters);
     }
 }
 

@@ -87,10 +87,10 @@ inline vint<float> numbers_of(const HitState& hit)
 template <abi::Features F>
 struct FusedMemory {
     float* color = nullptr;
-    CommonLists candidates;  ///< objects visible through the tile
-    FilteredObjects<Origin::shared>
-        visible;                            ///< the same with error bounds, if tests are expensive
-    FilteredObjects<Origin::any> from_far;  ///< for reflected rays outside the plan's origins
+    FromPoint<F, float> visible;  ///< objects visible through the tile, with lists_by_tile
+    // Only in exact mode:
+    CommonLists candidates;                       ///< objects visible through the tile
+    FilteredObjects<Origin::any> from_far;        ///< for reflected rays outside the plan's origins
     LightObjects<F, float>* occluders = nullptr;  ///< for hits outside the plan's origins, by
                                                   ///< light; only of lights that send no rays
     std::size_t bytes = 0;
@@ -100,19 +100,26 @@ struct FusedMemory {
     {
         Arena arena(scratch);
         color = arena.take<float>(tile_elements);
-        candidates.take(arena, scene);
-        if constexpr (F.quadrics)
+        if constexpr (lists_by_tile<F>)
             take_objects<F>(arena, visible, scene);
+        if constexpr (F.exact)
+            take_exact(arena, scene);
+        bytes = arena.used();
+    }
+
+private:
+    void take_exact(Arena& arena, const abi::SceneView<float>& scene)
+    {
+        candidates.take(arena, scene);
         if (scene.rules.max_depth > 0)
             take_objects<F>(arena, from_far, scene);
-        occluders = arena.take<LightObjects<F, float>>(
-            static_cast<std::size_t>(scene.lighting.lights.count));
+        const auto lights = static_cast<std::size_t>(scene.lighting.lights.count);
+        occluders = arena.take<LightObjects<F, float>>(lights);
         LightObjects<F, float> measured;
-        for (int i = 0; i < scene.lighting.lights.count; ++i)
+        for (std::size_t i = 0; i < lights; ++i)
             if (!scene.lighting.lights.data[i].sends_rays)
-                take_occluders<F, float>(arena, scratch != nullptr ? occluders[i] : measured, scene,
+                take_occluders<F, float>(arena, color != nullptr ? occluders[i] : measured, scene,
                                          scene.lighting.lights.data[i]);
-        bytes = arena.used();
     }
 };
 

@@ -92,16 +92,22 @@ inline vreal<float> shine_floor2(const MaterialPacket<float>& material)
                vreal<float>(std::numeric_limits<float>::min()));
 }
 
-/// `F` is a feature set of exact mode without glass.
+/// Whether each tile has its own list of the objects that its camera rays may hit; else they are
+/// tested against all objects of the plan. Such a list with error bounds takes long to make, and
+/// pays only if tests are expensive.
+template <abi::Features F>
+inline constexpr bool lists_by_tile = F.quadrics || !F.exact;
+
+/// `F` is a feature set without glass.
 template <abi::Features F>
 struct FramePlan {
-    FilteredObjects<Origin::shared> from_camera;
-    FilteredObjects<Origin::any> from_near;  ///< for rays from `origins`
+    FromPoint<F, float> from_camera;   ///< only in exact mode
+    FromAnywhere<F, float> from_near;  ///< in exact mode for rays from `origins`, else for all
     Origins origins;
     /// By light; for a light that sends no rays, for rays from `origins`.
     LightObjects<F, float>* occluders = nullptr;
     BorrowedList<PlanLight> lights;     ///< by light number
-    CommonObjects common;               ///< for rays from `origins`
+    CommonObjects common;               ///< for rays from `origins`; only in exact mode are_all
     PlanMaterial* materials = nullptr;  ///< by material number
     PlanSurface* surfaces = nullptr;    ///< by number; [-1] for hits on several surfaces
     std::size_t bytes = 0;
@@ -113,7 +119,8 @@ struct FramePlan {
         const auto light_count = static_cast<std::size_t>(scene.lighting.lights.count);
         Arena arena(memory);
         arena.take<FramePlan>(1);
-        take_objects<F>(arena, from_camera, scene);
+        if constexpr (F.exact)
+            take_objects<F>(arena, from_camera, scene);
         take_objects<F>(arena, from_near, scene);
         common.take(arena, scene);
         materials = arena.take<PlanMaterial>(material_count(scene));

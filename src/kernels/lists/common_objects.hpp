@@ -292,13 +292,17 @@ inline constexpr int most_common_objects = 32;
 /// Smaller spheres lose digits to underflow.
 inline constexpr float least_common_radius = 1e-15f;
 
+/// The number of objects in a scene's lists.
+inline int listed_objects(const abi::GeometryView<float>& scene)
+{
+    return scene.spheres.count + scene.anchored_spheres.count + scene.planes.count +
+           scene.quadrics.count + scene.polygons.count;
+}
+
 /// Whether a scene has so few objects, all in lists.
 inline bool has_few_objects(const abi::GeometryView<float>& scene)
 {
-    return scene.tree.empty() && scene.spheres.count + scene.anchored_spheres.count +
-                                         scene.planes.count + scene.quadrics.count +
-                                         scene.polygons.count <=
-                                     most_common_objects;
+    return scene.tree.empty() && listed_objects(scene) <= most_common_objects;
 }
 
 /// Fills `common` with the objects of a scene whose first surface is `wanted(surface)`, for rays
