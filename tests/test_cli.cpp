@@ -283,6 +283,15 @@ TEST_CASE("a mistyped word gets a suggestion and the command whose help to read"
          "--help\n"},
         {{"render", four_spheres, "-o", "x.png", "second", "third"},
          "packtrace render: unexpected argument 'second'; see packtrace render --help\n"},
+        // The value of an unknown option may stand elsewhere, too.
+        {{"render", four_spheres, "-o", "x.png", "--depth", "3", "--dept", "3"},
+         "packtrace render: unknown option '--dept'; did you mean --depth? See packtrace render "
+         "--help\n"},
+        {{"intersect", four_spheres, "rays.csv", "--threads", "2", "--shards", "2"},
+         "packtrace intersect: unknown option '--shards'; did you mean --shard? See packtrace "
+         "intersect --help\n"},
+        {{"render", "--", four_spheres, "second", "-o", "x.png"},
+         "packtrace render: unexpected argument 'second'; see packtrace render --help\n"},
         {{"explain", four_spheres},
          "packtrace explain: --pixel is required; see packtrace explain "
          "--help\n"}};

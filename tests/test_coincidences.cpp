@@ -343,6 +343,46 @@ TEST_CASE("Where a glass body stands on another, the first one in the scene is h
     }
 }
 
+namespace {
+
+/// A cylinder of glass on one of water, whose common place has the coordinate `at` on all axes.
+Scene glass_on_water(int at)
+{
+    std::string text = R"(
+        illumination = general
+        image_size = 32 x 24
+        max_depth = 5
+        camera { position = (AT, UP, BACK)  look_at = (AT, AT, AT)  fov = 40 }
+        light { type = ambient  intensity = 1 }
+        cylinder { z_range = (0, 1)  capped = yes  rotate = (1, 0, 0, -90)  translate = (AT, AT, AT)
+                   ambient = (0.1, 0, 0)  transmit = 0.8  ior = 1.5 }
+        cylinder { z_range = (-1, 0)  capped = yes  rotate = (1, 0, 0, -90)  translate = (AT, AT, AT)
+                   ambient = (0, 0.3, 0)  reflect = 0.3  transmit = 0.8  ior = 1.33 }
+    )";
+    const std::pair<std::string, int> words[] = {{"AT", at}, {"UP", at + 2}, {"BACK", at - 4}};
+    for (const auto& [word, number] : words)
+        for (auto place = text.find(word); place != text.npos; place = text.find(word))
+            text.replace(place, word.size(), std::to_string(number));
+    return parse_scene(text, "glass on water", {});
+}
+
+}  // namespace
+
+TEST_CASE("Where a glass body stands on another far away, the first one in the scene is hit too",
+          "[coincidences]")
+{
+    // The further from the world's origin, the further a ray's origin is moved off its surface.
+    for (const int at : {0, 64, 1024}) {
+        const Scene scene = glass_on_water(at);
+        const Image<double> truth = render<double>(scene, {.kernel = Kernel::scalar});
+        for (const RenderOptions& options : packet_ways(Accuracy::exact)) {
+            CAPTURE(at, options.isa);
+            CHECK(largest_difference(render<double>(scene, options), truth) < 1e-9);
+            CHECK(largest_difference(render<float>(scene, options), truth) < 1e-5);
+        }
+    }
+}
+
 TEST_CASE("A quadric is seen in its own place, even if single precision cannot hold that place",
           "[coincidences]")
 {

@@ -311,6 +311,29 @@ TEST_CASE("a picture truncated anywhere is refused", "[image]")
     }
 }
 
+TEST_CASE("Radiance HDR is read with runs of the old coding", "[image]")
+{
+    const TempFolder folder;
+    const std::string size = "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y ";
+    const std::string pixel = "\x80\x40\x20\x81";
+    write_text(folder / "a.hdr", size + "1 +X 12\n" + pixel + "\1\1\1\xb");
+    const Image<float> row = read_image(folder / "a.hdr");
+    REQUIRE(row.width == 12);
+    for (int x = 0; x < row.width; ++x)
+        CHECK(Pixels(row.pixel(x, 0), row.pixel(x, 0) + 3) == Pixels{1, 0.5f, 0.25f});
+
+    // 2 + 1 * 256 + 1 * 65536 copies, then another pixel and one copy, in each of two rows.
+    const std::string long_row = pixel + "\1\1\1\2\1\1\1\1\1\1\1\1" + "\x80\0\0\x80"s + "\1\1\1\1";
+    write_text(folder / "b.hdr", size + "2 +X 65797\n" + long_row + long_row);
+    const Image<float> rows = read_image(folder / "b.hdr");
+    REQUIRE(rows.width == 65797);
+    REQUIRE(rows.height == 2);
+    for (int y = 0; y < rows.height; ++y)
+        for (const auto& [x, red] :
+             {std::pair{0, 1.0f}, {65794, 1.0f}, {65795, 0.5f}, {65796, 0.5f}})
+            CHECK(rows.pixel(x, y)[0] == red);
+}
+
 TEST_CASE("a wrong Radiance file is refused with the reason", "[image]")
 {
     const TempFolder folder;
@@ -323,6 +346,15 @@ TEST_CASE("a wrong Radiance file is refused with the reason", "[image]")
         {head + "-Y 99999999 +X 99999999\n1234", "ends early"},
         {head + "-Y 1 +X 8\n\2\2\0\x8\x89\1"s + std::string(40, '\1'), "does not fit its row"},
         {head + "-Y 1 +X 8\n\2\2\0\x8\0"s + std::string(40, '\1'), "does not fit its row"},
+        {head + "-Y 1 +X 3\n1234\1\1\1\3", "does not fit its row"},
+        {head + "-Y 1 +X 258\n1234\1\1\1\2\1\1\1\1", "does not fit its row"},
+        {head + "-Y 1 +X 2\n\1\1\1\1" + "1234", "does not fit its row"},
+        {head + "-Y 2 +X 2\n1234\1\1\1\1\1\1\1\2", "does not fit its row"},
+        {head + "-Y 1 +X 999999999\n1234\1\1\1\xff\1\1\1\xff", "ends early"},
+        {head + "-Y 1 +X 2\n1234\1\1\1\1.", "goes on after its last row"},
+        {head + "-Y 1 +X 1\n12345678", "goes on after its last row"},
+        {head + "-Y 1 +X 8\n\2\2\0\x8\x88\1\x88\1\x88\1\x88\1"s + "\n",
+         "goes on after its last row"},
     };
     for (const auto& [text, reason] : wrong) {
         write_text(folder / "a.hdr", text);

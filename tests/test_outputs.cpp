@@ -10,6 +10,7 @@
 #include <fcntl.h>
 #include <filesystem>
 #include <fstream>
+#include <sys/resource.h>
 #include <sys/stat.h>
 #include <sys/wait.h>
 #include <thread>
@@ -33,6 +34,9 @@ public:
         const std::string rays = (folder / "rays").string();
         REQUIRE(mkfifo(rays.c_str(), 0600) == 0);
         process_ = fork_child([&] {
+            // SIGQUIT would write the memory into a file.
+            const rlimit no_core{};
+            setrlimit(RLIMIT_CORE, &no_core);
             const int input = open(rays.c_str(), O_RDONLY);
             const int errors = open((folder / "err").c_str(), O_WRONLY | O_CREAT, 0600);
             dup2(input, STDIN_FILENO);
@@ -175,7 +179,7 @@ TEST_CASE("results that do not fit on standard output end with exit code 1", "[o
 
 TEST_CASE("an interrupted program removes its unfinished file and ends by the signal", "[outputs]")
 {
-    for (const int number : {SIGINT, SIGTERM, SIGHUP}) {
+    for (const int number : {SIGINT, SIGTERM, SIGHUP, SIGQUIT}) {
         const TempFolder folder;
         const WaitingProgram program(folder);
         const int status = program.end_by(number, folder);

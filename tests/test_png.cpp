@@ -81,6 +81,22 @@ Bytes bytes_of(std::string_view digits)
     return bytes;
 }
 
+void add_number(Bytes& bytes, std::size_t number)
+{
+    for (const int shift : {24, 16, 8, 0})
+        bytes.push_back(static_cast<std::uint8_t>(number >> shift));
+}
+
+// Appends a chunk with its length and its checksum.
+void add_chunk(Bytes& file, std::string_view type, const Bytes& data)
+{
+    add_number(file, data.size());
+    const std::size_t start = file.size();
+    file.insert(file.end(), type.begin(), type.end());
+    file.insert(file.end(), data.begin(), data.end());
+    add_number(file, libdeflate_crc32(0, file.data() + start, file.size() - start));
+}
+
 }  // namespace
 
 TEST_CASE("a PNG's chunks hold the picture's rows in one zlib stream", "[png]")
@@ -173,6 +189,29 @@ TEST_CASE("PNGs of other programs can be read", "[png]")
         for (std::size_t i = 0; i < image.rgb.size(); ++i)
             CHECK(image.rgb[i] == Approx(sample.grey[i / 3] / 255.0).epsilon(1e-6));
     }
+}
+
+TEST_CASE("a PNG with a colour that is not in its palette is refused", "[png]")
+{
+    // 4 x 1 pixels with indices 0, 1, 2 and 3 of two bits, and a palette of `colors` greys. The
+    // rows are stored without compression.
+    const auto with_palette = [](std::uint8_t colors) {
+        Bytes palette;
+        for (std::uint8_t i = 0; i < colors; ++i)
+            palette.insert(palette.end(), 3, static_cast<std::uint8_t>(10 * (i + 1)));
+        Bytes file = bytes_of("89504e470d0a1a0a");
+        add_chunk(file, "IHDR", bytes_of("00000004000000010203000000"));
+        add_chunk(file, "PLTE", palette);
+        add_chunk(file, "IDAT", bytes_of("7801010200fdff001b001d001c"));
+        add_chunk(file, "IEND", {});
+        return file;
+    };
+    const Image<float> image = decode_png(with_palette(4));
+    for (int x = 0; x < 4; ++x)
+        CHECK(image.pixel(x, 0)[1] == Approx(10.0 * (x + 1) / 255.0).epsilon(1e-6));
+    for (const std::uint8_t colors : {std::uint8_t{1}, std::uint8_t{3}})
+        CHECK(refusal<ImageError>([&] { return decode_png(with_palette(colors)); }) ==
+              "damaged PNG: the colour of a pixel is not in the palette");
 }
 
 TEST_CASE("a PNG that is damaged or too short for its pixels is refused", "[png]")

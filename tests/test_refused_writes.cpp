@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <linux/capability.h>
+#include <set>
 #include <string>
 #include <sys/prctl.h>
 #include <thread>
@@ -84,6 +85,28 @@ TEST_CASE("past a limit of file size a run ends with one line and leaves no unfi
         const ProgramResult result = run_packtrace(words_of(work, folder), "ulimit -f 1;");
         check_refused(work, folder, result, "File too large");
     }
+}
+
+TEST_CASE("a report that can't be written as a whole leaves none of its files", "[refused_writes]")
+{
+    const std::vector<Work> works = all_work();
+    const auto report = std::find_if(works.begin(), works.end(),
+                                     [](const Work& work) { return work.name == "report"; });
+    REQUIRE(report != works.end());
+    const TempFolder folder;
+    // Blocks of 512 or 1024 bytes: the page is longer than the pictures.
+    const auto run = [&] { return run_packtrace(words_of(*report, folder), "ulimit -f 30;"); };
+    CHECK(run().exit_code == 1);
+    CHECK_FALSE(std::filesystem::exists(folder / "a"));
+
+    create_directories(folder / "a/four_spheres");
+    write_text(folder / "a/four_spheres/notes", "mine");
+    write_text(folder / "a/report.csv", "an earlier one");
+    CHECK(run().exit_code == 1);
+    std::set<std::string> left;
+    for (const auto& entry : std::filesystem::recursive_directory_iterator(folder / "a"))
+        left.insert(entry.path().lexically_relative(folder / "a"));
+    CHECK(left == std::set<std::string>{"four_spheres", "four_spheres/notes", "report.csv"});
 }
 
 TEST_CASE("in a folder without write permission a run ends with one line", "[refused_writes]")

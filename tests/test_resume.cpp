@@ -242,6 +242,20 @@ TEST_CASE("--resume is refused where no journal can be kept", "[resume]")
     const ProgramResult device = studio.render("null.png");
     CHECK(device.exit_code == 1);
     CHECK_THAT(device.err, ContainsSubstring("is no regular file"));
+    // A link to a pipe that has no name.
+    write_text(studio.folder / "rays", "0,0,0,0,0,1\n");
+    const std::string intersect = shell_quoted(PACKTRACE_CLI) + " intersect " +
+                                  shell_quoted(four_spheres_file) + " " +
+                                  shell_quoted((studio.folder / "rays").string());
+    const ProgramResult pipe =
+        run_command({"sh", "-c", intersect + " -o /dev/stdout --resume | cat"});
+    CHECK_THAT(pipe.err, ContainsSubstring("/dev/stdout: --resume: is no regular file"));
+    // A link to a file that has one, on another disk than the link.
+    const std::string hits = (studio.folder / "hits.csv").string();
+    const ProgramResult file =
+        run_command({"sh", "-c", intersect + " -o /dev/stdout --resume >" + shell_quoted(hits)});
+    CHECK(file.exit_code == 0);
+    CHECK(read_text(hits).starts_with("hit,t,"));
 }
 
 TEST_CASE("pictures killed at random moments are resumed to the same bytes", "[resume][slow]")

@@ -648,6 +648,27 @@ TEST_CASE("the stress command prints rows, a verdict, JSON and its families", "[
     CHECK(run_packtrace({"stress", "--self-hits", "nonsense"}).exit_code == 2);
 }
 
+TEST_CASE("the list of ray families refuses the options of a trace", "[stress]")
+{
+    const std::vector<std::vector<std::string>> refused{
+        {"--rays", "10"},        {"--seed", "3"},       {"--kernel", "scalar"},
+        {"--mode", "fast"},      {"--isa", "foo"},      {"--traversal", "list"},
+        {"--threads", "2"},      {"--cases", "folder"}, {"--precision", "single"},
+        {"--self-hits", "note"}, {"--shard", "0/3"}};
+    for (const std::vector<std::string>& option : refused) {
+        const ProgramResult result =
+            run_packtrace({"stress", "--list", "--json", option[0], option[1]});
+        CHECK(result.exit_code == 2);
+        CHECK(result.out.empty());
+        CHECK(result.err == "packtrace stress: " + option[0] +
+                                ": --list traces no rays; leave one out; see packtrace stress "
+                                "--help\n");
+    }
+    const ProgramResult one = run_packtrace({"stress", "--list", "--family", "plane", "--json"});
+    CHECK(one.exit_code == 0);
+    CHECK(nlohmann::json::parse(one.out).size() == 1);
+}
+
 TEST_CASE("the stress command suggests families similar to an unknown one, and how to list all",
           "[stress]")
 {

@@ -89,15 +89,13 @@ public:
             scene->lit({}, light, to);  // rejects a wrong light, even if there are no points
             GatheredBlocks<Real, 3> places{ColumnBlocks<Real, 3>(
                 {column_of(points, 0), column_of(points, 1), column_of(points, 2)})};
-            for_each_ray_block(static_cast<std::size_t>(points.shape(0)),
-                               places.blocks.block_size(), scenes_.threads(),
-                               [&](std::size_t first, std::size_t count) {
-                                   const auto at = places.at(first, count);
-                                   scene->lit({{at[0], at[1], at[2]},
-                                               number == nullptr ? nullptr : number + first,
-                                               count},
-                                              light, to + first);
-                               });
+            for_each_piece(static_cast<std::size_t>(points.shape(0)), places.blocks.block_size(),
+                           usual_speed(), scenes_.threads(),
+                           [&](std::size_t first, std::size_t count) {
+                               const auto at = places.at(first, count);
+                               scene->lit({{at[0], at[1], at[2]}, part_of(number, first), count},
+                                          light, to + first);
+                           });
         });
     }
 
@@ -121,7 +119,7 @@ public:
                 [&](const RaysView<Real>& view, std::size_t first) {
                     scene->bound_closest_hits(view, object + first, found + first);
                 },
-                slow_rays_between_signals);
+                Speed::slow);
         });
     }
 
@@ -175,18 +173,27 @@ private:
         return {std::move(lock), &scenes_.of<Real>()};
     }
 
-    /// Calls `work(view, first)` for blocks of rays.
+    /// The scalar kernel tests each ray with all objects.
+    [[nodiscard]] Speed usual_speed() const
+    {
+        return is_scalar_ ? Speed::slow : Speed::fast;
+    }
+
+    /// Calls `work(view, first)` for pieces of rays.
     template <class Real, class Work>
-    void for_rays(const RayArrays& rays, const Work& work,
-                  std::size_t between_signals = rays_between_signals)
+    void for_rays(const RayArrays& rays, const Work& work)
+    {
+        for_rays<Real>(rays, work, usual_speed());
+    }
+
+    template <class Real, class Work>
+    void for_rays(const RayArrays& rays, const Work& work, Speed speed)
     {
         GatheredBlocks<Real, 8> gathered{ColumnBlocks<Real, 8>(rays.columns())};
-        for_each_ray_block(
-            rays.count(), gathered.blocks.block_size(), scenes_.threads(),
-            [&](std::size_t first, std::size_t count) {
-                work(rays_view(gathered.at(first, count), count), first);
-            },
-            between_signals);
+        for_each_piece(rays.count(), gathered.blocks.block_size(), speed, scenes_.threads(),
+                       [&](std::size_t first, std::size_t count) {
+                           work(rays_view(gathered.at(first, count), count), first);
+                       });
     }
 
     template <class Real>
@@ -221,15 +228,15 @@ private:
         GatheredBlocks<Real, 8> gathered{ColumnBlocks<Real, 8>(rays.columns())};
         const std::size_t block =
             std::min(points.blocks.block_size(), gathered.blocks.block_size());
-        for_each_ray_block(
-            rays.count(), block, scenes_.threads(), [&](std::size_t first, std::size_t count) {
-                const auto at = points.at(first, count);
-                const StartsView<Real> starts{{at[0], at[1], at[2]}, numbers + first};
-                const RaysView<Real> view = rays_view(gathered.at(first, count), count);
-                const HitsView<Real> found = part_of(hits, first);
-                scene->closest_hits(view, starts, found);
-                finish(view, found);
-            });
+        for_each_piece(rays.count(), block, usual_speed(), scenes_.threads(),
+                       [&](std::size_t first, std::size_t count) {
+                           const auto at = points.at(first, count);
+                           const StartsView<Real> starts{{at[0], at[1], at[2]}, numbers + first};
+                           const RaysView<Real> view = rays_view(gathered.at(first, count), count);
+                           const HitsView<Real> found = part_of(hits, first);
+                           scene->closest_hits(view, starts, found);
+                           finish(view, found);
+                       });
     }
 
     template <class Real>
@@ -240,10 +247,11 @@ private:
         py::array_t<std::int64_t> offsets(static_cast<py::ssize_t>(count + 1));
         std::int64_t* const offset = offsets.mutable_data();
         offset[0] = 0;
-        // One element per block. The first ray of a block is a multiple of the smallest block size.
-        std::vector<std::vector<SurfaceHit<Real>>> found(count / gathered_rays + 1);
+        // One element per piece, whose first ray is a multiple of `longest`.
+        const std::size_t longest = longest_piece(usual_speed());
+        std::vector<std::vector<SurfaceHit<Real>>> found(count / longest + 1);
         for_rays<Real>(rays, [&](const RaysView<Real>& view, std::size_t first) {
-            auto& hits = found[first / gathered_rays];
+            auto& hits = found[first / longest];
             scene->all_hits(view, [&](std::size_t ray, std::span<const SurfaceHit<Real>> of_ray) {
                 hits.insert(hits.end(), of_ray.begin(), of_ray.end());
                 offset[first + ray + 1] = static_cast<std::int64_t>(of_ray.size());

@@ -1,7 +1,8 @@
 #include "bindings.hpp"
+#include "core/text.hpp"
+#include "interrupt.hpp"
 #include "options.hpp"
 #include "pictures.hpp"
-#include "progress.hpp"
 #include "scene.hpp"
 #include "values.hpp"
 #include <packtrace/animate.hpp>
@@ -10,6 +11,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <new>
 
 namespace packtrace::python {
 namespace {
@@ -56,23 +58,40 @@ RenderOptions render_options(const py::kwargs& arguments)
     return options;
 }
 
+/// Raises MemoryError. The message has the memory of a large picture, as that of the program.
+[[noreturn]] void throw_no_memory(const Scene& scene, const RenderOptions& options,
+                                  std::size_t pixel_bytes)
+{
+    // A smaller picture is not the reason for a lack of memory.
+    constexpr double large = 1e8;
+    const Region part = options.region.value_or(Region{0, 0, scene.width, scene.height});
+    const double bytes = static_cast<double>(pixel_bytes) * part.width * part.height;
+    if (bytes < large)
+        throw std::bad_alloc();
+    const std::string message = "not enough memory for " + std::to_string(part.width) + " x " +
+                                std::to_string(part.height) + " pixels, which alone take " +
+                                fixed(1e-9 * bytes, 1) + " GB; render fewer pixels at once";
+    PyErr_SetString(PyExc_MemoryError, message.c_str());
+    throw py::error_already_set();
+}
+
 py::tuple render_scene(py::handle value, const py::kwargs& arguments)
 {
     const Scene scene = scene_to_render(value, arguments);
     RenderOptions options = render_options(arguments);
-    Progress progress(arguments["progress"]);
-    options.progress = [&progress](double share) { progress(share); };
-    options.stop = progress.stop();
+    Interrupt interrupt;
+    const py::object progress = arguments["progress"];
+    options.progress = [&](double share) { interrupt.call(progress, share); };
+    options.stop = interrupt.stop();
     return with_real(py::dtype::from_args(arguments["dtype"]), [&](auto real) {
         Image<decltype(real)> image;
         CutRays cut;
         try {
-            const py::gil_scoped_release release;
-            image = render<decltype(real)>(scene, options, &cut);
-        } catch (const StopError&) {
-            progress.raise();
+            run_interruptibly(interrupt,
+                              [&] { image = render<decltype(real)>(scene, options, &cut); });
+        } catch (const std::bad_alloc&) {
+            throw_no_memory(scene, options, 3 * sizeof real);
         }
-        progress.raise();
         return py::make_tuple(to_array(std::move(image)), py::make_tuple(cut.rays, cut.bound));
     });
 }

@@ -1,7 +1,7 @@
 #include "bindings.hpp"
+#include "interrupt.hpp"
 #include "lab/report/report_text.hpp"
 #include "pictures.hpp"
-#include "progress.hpp"
 #include "scene.hpp"
 #include "values.hpp"
 #include "words.hpp"
@@ -79,19 +79,14 @@ py::list report_scene(py::handle value, py::handle name, py::handle threads, py:
     from_python(repetitions, "repetitions", options.repetitions);
     from_python(truth_samples, "truth_samples", options.truth_samples);
     from_python(threshold, "threshold", options.threshold);
-    Progress progress(call);
-    options.progress = [&](const std::string& what, double share) { progress(what, share); };
-    options.stop = progress.stop();
+    Interrupt interrupt;
+    options.progress = [&](const std::string& what, double share) {
+        interrupt.call(call, what, share);
+    };
+    options.stop = interrupt.stop();
     const ReportScene scene{value_of<std::string>(name, "name"), scene_of(value)};
     SceneReport made;
-    try {
-        const py::gil_scoped_release release;
-        made = report(scene, options);
-    } catch (const StopError&) {
-        progress.raise();
-        throw;
-    }
-    progress.raise();
+    run_interruptibly(interrupt, [&] { made = report(scene, options); });
     py::list rows;
     for (const StudyReport& study : made.studies)
         for (const ReportRun& run : study.runs)

@@ -9,6 +9,7 @@
 
 #include <pybind11/pybind11.h>
 
+#include <new>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -59,6 +60,8 @@ void translate_texts()
         } catch (const packtrace::ImageError& error) {
             // A file's name need not be UTF-8, but Python's texts must be.
             raise("ImageError", packtrace::language::escape(error.what()));
+        } catch (const std::bad_alloc&) {
+            PyErr_SetString(PyExc_MemoryError, "not enough memory");
         }
     });
 }

@@ -1,5 +1,6 @@
 #include "options.hpp"
 
+#include "core/check_number.hpp"
 #include "core/text.hpp"
 #include "words.hpp"
 #include <packtrace/isa.hpp>
@@ -37,8 +38,9 @@ RenderOptions kernel_options(const py::kwargs& arguments)
     options.self_hits = word_value<SelfHits>(arguments["self_hits"], "self_hits");
     options.traversal = word_value<Traversal>(arguments["traversal"], "traversal");
     from_python(arguments["threads"], "threads", options.threads);
-    if (options.threads < 0)
-        throw_wrong("threads", arguments["threads"], "0, for all processors, or more");
+    if (options.threads < 0 || options.threads > most_threads)
+        throw_wrong("threads", arguments["threads"],
+                    "0, for all processors, or up to " + std::to_string(most_threads));
     return options;
 }
 

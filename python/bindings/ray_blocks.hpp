@@ -1,9 +1,8 @@
 #pragma once
 
 #include "core/arena.hpp"
+#include "interrupt.hpp"
 
-#include <pybind11/pybind11.h>
-#include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
@@ -11,22 +10,25 @@
 
 namespace packtrace::python {
 
-/// The number of rays between checks for Ctrl-C; fewer for slow queries. They are multiples of all
-/// block sizes.
-inline constexpr std::size_t rays_between_signals = std::size_t{1} << 20;
-inline constexpr std::size_t slow_rays_between_signals = std::size_t{1} << 16;
+/// Of queries. Slow ones take more than some 10 µs a ray.
+enum class Speed { fast, slow };
 
-/// Calls `work(first, count)` for the blocks of [begin, end) on `threads` threads; 0 is one per
+/// The most rays between two checks for Ctrl-C. It divides all block sizes.
+[[nodiscard]] constexpr std::size_t longest_piece(Speed speed)
+{
+    return speed == Speed::fast ? 4096 : 64;
+}
+
+/// Calls `work(first, count)` for the blocks of all rays on `threads` threads; 0 is one per
 /// processor.
 template <class Work>
-void for_each_block(std::size_t begin, std::size_t end, std::size_t block, int threads,
-                    const Work& work)
+void for_each_block(std::size_t rays, std::size_t block, int threads, const Work& work)
 {
     const auto one = [&](std::size_t number) {
-        const std::size_t first = begin + number * block;
-        work(first, std::min(block, end - first));
+        const std::size_t first = number * block;
+        work(first, std::min(block, rays - first));
     };
-    const std::size_t blocks = (end - begin + block - 1) / block;
+    const std::size_t blocks = (rays + block - 1) / block;
     if (threads == 1 || blocks <= 1) {
         for (std::size_t number = 0; number < blocks; ++number)
             one(number);
@@ -35,19 +37,29 @@ void for_each_block(std::size_t begin, std::size_t end, std::size_t block, int t
     run_on_threads(threads, [&] { tbb::parallel_for(std::size_t{0}, blocks, one); });
 }
 
-/// Calls `work(first, count)` for the blocks of all rays, without the GIL. Ctrl-C ends it.
+/// Calls `work(first, count)` for all rays, in pieces of at most longest_piece(), without the GIL.
+/// The calling thread works, too, and checks for Ctrl-C between its pieces. Ctrl-C ends the work of
+/// all threads after their present pieces.
 template <class Work>
-void for_each_ray_block(std::size_t count, std::size_t block, int threads, const Work& work,
-                        std::size_t between_signals = rays_between_signals)
+void for_each_piece(std::size_t rays, std::size_t block, Speed speed, int threads, const Work& work)
 {
-    for (std::size_t begin = 0; begin < count; begin += between_signals) {
-        {
-            const pybind11::gil_scoped_release release;
-            for_each_block(begin, std::min(count, begin + between_signals), block, threads, work);
-        }
-        if (PyErr_CheckSignals() != 0)
-            throw pybind11::error_already_set();
+    const std::size_t longest = longest_piece(speed);
+    // While the calling thread waits for the last blocks of the others, it does not check. So the
+    // blocks of slow queries are small.
+    const std::size_t size = speed == Speed::fast ? block : longest;
+    Interrupt interrupt;
+    {
+        const py::gil_scoped_release release;
+        for_each_block(rays, size, threads, [&](std::size_t begin, std::size_t count) {
+            for (std::size_t first = begin; first < begin + count; first += longest) {
+                interrupt.check_signals_in_time();
+                if (interrupt.is_stopped())
+                    return;
+                work(first, std::min(longest, begin + count - first));
+            }
+        });
     }
+    interrupt.raise();
 }
 
 }  // namespace packtrace::python

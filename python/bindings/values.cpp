@@ -140,8 +140,10 @@ void from_python(py::handle value, const std::string& key, int& to)
     int overflow = 0;
     const long long whole = PyLong_AsLongLongAndOverflow(number.ptr(), &overflow);
     if (overflow != 0 || whole < least || whole > most)
+        // The fields' own ranges are narrower, so these limits would mislead.
         throw_wrong(key, value,
-                    "a whole number from " + std::to_string(least) + " to " + std::to_string(most));
+                    overflow < 0 || (overflow == 0 && whole < least) ? "a larger whole number"
+                                                                     : "a smaller whole number");
     to = static_cast<int>(whole);
 }
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 
 import operator
 import os
-from typing import Any, Union
+from typing import Any, Callable, Optional, Union
 
 import numpy as np
 
@@ -37,6 +37,13 @@ def number(name: str, value: Any) -> float:
         raise ValueError(f"{name} is {shown(value)}; use a number") from None
     except OverflowError:
         raise ValueError(f"{name} is beyond double precision; use a smaller number") from None
+
+
+def function(name: str, value: Optional[Callable[..., Any]]) -> Optional[Callable[..., Any]]:
+    """A function, or None. Checked before the work that calls it begins."""
+    if value is not None and not callable(value):
+        raise TypeError(f"{name} is {shown(value)}; use a function or None")
+    return value
 
 
 def precision(dtype: Any) -> np.dtype[Any]:

@@ -8,7 +8,7 @@ from typing import Any, Callable, List, Literal, Optional, Tuple, Union
 import numpy as np
 
 from . import _packtrace
-from .arguments import Path, file_name, number, precision, whole
+from .arguments import Path, file_name, function, number, precision, whole
 from .scene import Array, Scene
 
 
@@ -80,7 +80,7 @@ def render(scene: Scene, *, width: Optional[int] = None, height: Optional[int] =
     frame: the frame of the scene's animation, from 0.
     kernel, isa, lanes, accuracy, self_hits, traversal: as for RayScene.
     force_general: uses the packet kernel with all features; the picture is the same.
-    threads: 0 is one per processor. The picture does not depend on it.
+    threads: up to 1024; 0 is one per processor. The picture does not depend on it.
     samples: samples per pixel, 1 to 1024; the colour is their mean.
     adaptive: the contrast, 0 or more, above which a pixel gets all samples; other pixels get one.
     region: (x, y, width, height) of a part of the picture, in pixels from its upper left corner;
@@ -89,7 +89,7 @@ def render(scene: Scene, *, width: Optional[int] = None, height: Optional[int] =
         exception in it ends the rendering, as Ctrl-C does.
 
     The array is the renderer's own memory, not a copy. Raises SceneError for a scene that cannot be
-    used, and ValueError for an impossible option.
+    used, ValueError for an impossible option, and MemoryError if there is no memory for the picture.
     """
     if dtype is None:  # NumPy would take it for float64
         dtype = np.float32
@@ -97,7 +97,7 @@ def render(scene: Scene, *, width: Optional[int] = None, height: Optional[int] =
         scene, width=width, height=height, dtype=precision(dtype), frame=frame, kernel=kernel,
         isa=isa, lanes=lanes, accuracy=accuracy, self_hits=self_hits, traversal=traversal,
         force_general=force_general, threads=threads, samples=samples, adaptive=adaptive,
-        region=region, progress=progress)
+        region=region, progress=function("progress", progress))
     picture: Picture = array.view(Picture)
     if scene.min_weight > 0:
         picture.cut = CutRays(*cut)

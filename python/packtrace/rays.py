@@ -60,7 +60,7 @@ class Hits:
         if (self.surface is None or self.normal is None or self.point is None or
                 self.outer_start is None or self.inner_start is None):
             raise ValueError('these hits have no starts; ask for them: closest(..., detail="start")')
-        directions = _numbers(directions, self.t.dtype, "directions",
+        directions = _vectors(directions, self.t.dtype, "directions",
                               f"; use an array of shape {self.normal.shape}")
         if directions.shape not in (self.normal.shape, (3,)):
             raise ValueError(f"directions have shape {directions.shape}; these hits need "
@@ -106,11 +106,11 @@ class RayScene:
     accuracy: "exact", or "fast" for single precision only with float32 rays.
     self_hits: "exact", or "note" for rays that start 0.001 along their direction.
     traversal: "auto", "list" or "tree".
-    threads: number of threads for a call; 0 is one per processor. Answers do not depend on it.
+    threads: threads for a call, up to 1024; 0 is one per processor. Answers do not depend on it.
     dtype: prepares the scene for rays of this dtype at once; None prepares it with the first rays.
 
-    All members may be called from several threads at once. Ctrl-C stops them. Raises SceneError for a
-    scene that cannot be used, and ValueError for an impossible option.
+    All members may be called from several threads at once. Ctrl-C stops queries. Raises SceneError for
+    a scene that cannot be used, and ValueError for an impossible option.
     """
 
     def __init__(self, scene: Scene, *, kernel: Literal["packet", "scalar"] = "packet",
@@ -164,7 +164,7 @@ class RayScene:
 
         origins: (..., 3) or (3,), scene units; or the result of `Hits.leave`.
         directions: (..., 3) or (3,), of any length; t is in units of their length.
-        t_min, t_max: numbers or (...), t_min >= 0. A ray with a NaN hits nothing.
+        t_min, t_max: numbers or (...); t_min below 0 raises ValueError. A ray with a NaN hits nothing.
         detail: "t" gives t and object; "normal" also normals; "point" also points; "start" also the
             arrays for `Hits.leave`. Less detail is faster.
         out: hits of an earlier call with the same shape, dtype and detail, to be overwritten.
@@ -193,7 +193,8 @@ class RayScene:
         (...). Every object between them that casts a shadow is an occluder, even a transparent one.
 
         points: `Hits` with detail="start", whose misses are not lit; or points in space, (..., 3).
-            The surfaces of hits are known, so rounding errors cause no self-shadowing.
+            The surfaces of hits are known, so rounding errors cause no self-shadowing. -1 in
+            `Hits.surface` is a point on no surface.
         light: a point light or a directional light; others raise ValueError.
         """
         hits = points if isinstance(points, Hits) else None
@@ -205,8 +206,7 @@ class RayScene:
         if places.ndim == 0 or places.shape[-1] != 3:
             raise ValueError(f"points has shape {places.shape}; use (..., 3), such as (n, 3)")
         mask = np.empty(places.shape[:-1], np.bool_)
-        surface = None if hits is None else _checked_part(
-            hits.surface, "hits.surface", mask.shape, np.dtype(np.int32)).reshape(-1)
+        surface = None if hits is None else _checked_surface(hits.surface, mask.shape)
         if isinstance(light, (int, np.integer)) and light < 0:
             raise ValueError(f"lights[{light}]; lights count from 0, and none from the end")
         self._native.lit(places.reshape(-1, 3), surface, whole("light", light), mask.reshape(-1))
@@ -259,7 +259,7 @@ class _Rays:
         self.columns: Tuple[Array, Array, Array, Array] = (
             _spread(vectors["origins"], wide).reshape(-1, 3),
             _spread(vectors["directions"], wide).reshape(-1, 3),
-            _spread(self._end(t_min, "t_min"), self.shape).reshape(-1),
+            _spread(_not_negative(self._end(t_min, "t_min")), self.shape).reshape(-1),
             _spread(self._end(t_max, "t_max"), self.shape).reshape(-1))
 
     def _end(self, t: Any, name: str) -> Array:
@@ -286,17 +286,29 @@ def _array(name: str, value: Any, beside: Any = None) -> Array:
         raise ValueError(f"{name} are Hits; use one of their arrays, such as hits.point, or for the "
                          "origins of closest hits.leave(directions)")
     is_single = isinstance(beside, np.ndarray) and beside.dtype == np.float32
-    return _numbers(value, np.float32 if is_single else np.float64, name,
+    return _vectors(value, np.float32 if is_single else np.float64, name,
                     ", which is no array of vectors; use a NumPy array of shape (..., 3)")
 
 
+def _vectors(value: Any, dtype: Any, name: str, use: str) -> Array:
+    """As _numbers(). Rejects a finite number that would become infinite."""
+    array = _numbers(value, dtype, name, use)
+    infinite = np.isinf(array)
+    if infinite.any() and np.isfinite(_numbers(value, np.float64, name, use)[infinite]).any():
+        raise ValueError(f"{name} is {shown(value)}, beyond float32; use smaller numbers, or float64 "
+                         "for all rays")
+    return array
+
+
 def _numbers(value: Any, dtype: Any, name: str, use: str) -> Array:
-    """A value as an array of numbers. For other values `use` is the end of the message."""
+    """A value as an array of numbers; those beyond `dtype` become infinite. For other values `use`
+    is the end of the message."""
     try:
         # NumPy would convert None to NaN, and some texts to numbers.
         if value is None or _holds_texts(np.asarray(value)):
             raise TypeError
-        return np.asarray(value, dtype)
+        with np.errstate(over="ignore"):
+            return np.asarray(value, dtype)
     except (TypeError, ValueError, OverflowError):
         raise ValueError(f"{name} is {shown(value)}{use}") from None
 
@@ -312,6 +324,14 @@ def _checked_dtype(dtype: np.dtype[Any], name: str) -> np.dtype[Any]:
     if dtype not in (np.float32, np.float64):
         raise ValueError(f"{name} is {dtype}; use float32 or float64, by astype(np.float64)")
     return dtype
+
+
+def _not_negative(t_min: Array) -> Array:
+    """Checks t_min. NaN is valid: the ray hits nothing."""
+    least = np.fmin.reduce(t_min, axis=None, initial=0)
+    if least < 0:
+        raise ValueError(f"t_min {'is' if t_min.ndim == 0 else 'has'} {least}; use 0 or more")
+    return t_min
 
 
 def _common_shape(vectors: Dict[str, Array]) -> Tuple[int, ...]:
@@ -409,3 +429,13 @@ def _checked_part(value: Any, name: str, shape: Tuple[int, ...], dtype: np.dtype
         raise ValueError(f"{name} is {array.dtype} of shape {array.shape}; use {dtype} of shape "
                          f"{shape}, as packtrace gave it")
     return array
+
+
+def _checked_surface(value: Any, shape: Tuple[int, ...]) -> Array:
+    """Hits.surface for `lit`: a surface, -1 for a point on no surface, or NO_START for a miss."""
+    surface = _checked_part(value, "hits.surface", shape, np.dtype(np.int32)).reshape(-1)
+    wrong = (surface < -1) & (surface != NO_START)
+    if wrong.any():
+        raise ValueError(f"hits.surface has {surface[wrong.argmax()]}; use the numbers that closest "
+                         "gave, or -1 for a point on no surface")
+    return surface

@@ -6,6 +6,7 @@ from __future__ import annotations
 from typing import Any, Callable, Dict, List, Mapping, Optional, Sequence, Tuple, Union
 
 from . import _packtrace
+from .arguments import function
 from .scene import Scene
 
 Row = Dict[str, Union[str, int, float, None]]
@@ -39,6 +40,7 @@ def report(scenes: Union[Scene, Mapping[str, Scene]], *, threads: Sequence[int] 
     if not hasattr(_packtrace, "report"):
         raise RuntimeError("this build of packtrace has no reports; build it with "
                            "-DPACKTRACE_BUILD_STUDY=ON")
+    function("progress", progress)
     named = scenes if isinstance(scenes, Mapping) else {"scene": scenes}
     rows: List[Row] = []
     for name, scene in named.items():

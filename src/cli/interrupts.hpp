@@ -6,8 +6,8 @@
 
 namespace packtrace::cli {
 
-/// The signals of Ctrl-C, `kill` and a closed terminal.
-inline constexpr std::array ending_signals{SIGINT, SIGTERM, SIGHUP};
+/// The signals of Ctrl-C, `kill`, a closed terminal and Ctrl-\.
+inline constexpr std::array ending_signals{SIGINT, SIGTERM, SIGHUP, SIGQUIT};
 
 /// Installs a handler of the ending signals. It is called once for each signal; the second signal
 /// of a kind ends the program at once. Signals that are already ignored, as under nohup or in a
@@ -24,8 +24,9 @@ struct Interruption {
     int linger_milliseconds = 0;        ///< from the message to the end
 };
 
-/// From now on Ctrl-C, SIGTERM and SIGHUP end started programs, remove unfinished files and print
-/// one line. Then the program ends with the signal (exit codes 130, 143 and 129 in a shell).
+/// From now on Ctrl-C, SIGTERM, SIGHUP and SIGQUIT end started programs, remove unfinished files
+/// and print one line. Then the program ends with the signal (exit codes 130, 143, 129 and 131 in a
+/// shell; after SIGQUIT the system may write a core file).
 void clean_up_when_interrupted(const Interruption& interruption = {});
 
 /// From now on a file that exceeds the limit of `ulimit -f` is a write error, like a full disk. By

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <functional>
 #include <string_view>
 #include <vector>
 
@@ -36,10 +37,12 @@ std::vector<std::string> subcommands_of(const CLI::App& command)
     return names;
 }
 
+/// The long names of all options that the help shows.
 std::vector<std::string> options_of(const CLI::App& command)
 {
     std::vector<std::string> names;
-    for (const CLI::Option* option : command.get_options())
+    const auto is_shown = [](const CLI::Option* option) { return !option->get_group().empty(); };
+    for (const CLI::Option* option : command.get_options(is_shown))
         for (const std::string& name : option->get_lnames())
             names.push_back("--" + name);
     return names;
@@ -56,15 +59,30 @@ std::vector<std::string> unexpected_words(const CLI::App& command)
     return words;
 }
 
-/// The first unexpected word on the command line; empty for none. CLI11 may list them in reverse
+/// The unexpected words to blame. An unexpected word after an unknown option may be its value, and
+/// may also be the value of a known option. So only options are blamed, if there are any. Before a
+/// subcommand no option takes a value. After the mark `--`, which CLI11 lists too, none is an
+/// option.
+std::vector<std::string> words_to_blame(const CLI::App& command)
+{
+    std::vector<std::string> words = unexpected_words(command);
+    const bool has_mark = std::erase(words, "--") > 0;
+    const auto is_option = [](const std::string& word) { return word.starts_with('-'); };
+    if (!has_mark && subcommands_of(command).empty() &&
+        std::any_of(words.begin(), words.end(), is_option))
+        std::erase_if(words, std::not_fn(is_option));
+    return words;
+}
+
+/// The first word to blame on the command line; empty for none. CLI11 may list them in reverse
 /// order.
 std::string first_unexpected(const CLI::App& command, int count, const char* const* arguments)
 {
-    const std::vector<std::string> unexpected = unexpected_words(command);
+    const std::vector<std::string> blamed = words_to_blame(command);
     for (int i = 1; i < count; ++i)
-        if (std::find(unexpected.begin(), unexpected.end(), arguments[i]) != unexpected.end())
+        if (std::find(blamed.begin(), blamed.end(), arguments[i]) != blamed.end())
             return arguments[i];
-    return unexpected.empty() ? "" : unexpected.back();
+    return blamed.empty() ? "" : blamed.back();
 }
 
 std::string describe_unexpected(const CLI::App& command, const std::string& word)

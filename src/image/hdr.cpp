@@ -133,36 +133,75 @@ HdrHeader read_header(Cursor& file)
     return {size, checked_exposure(exposure)};
 }
 
-// Four sequences of bytes, one per component. A count above 128 repeats one byte.
-void read_packed_row(Cursor& file, Bytes& row)
+void check_run(bool fits)
 {
-    const std::size_t width = row.size() / 4;
+    if (!fits)
+        throw ImageError("damaged HDR picture: a run does not fit its row");
+}
+
+// Below, `put(x, component, byte)` receives the bytes of a row: r, g, b and the exponent of each
+// pixel.
+
+// Four sequences of bytes, one per component. A count above 128 repeats one byte.
+template <class Put>
+void read_packed_row(Cursor& file, std::size_t width, const Put& put)
+{
     for (std::size_t component = 0; component < 4; ++component)
         for (std::size_t x = 0; x < width;) {
             const std::size_t code = file.take(1)[0];
             const std::size_t count = code > 128 ? code - 128 : code;
-            if (count == 0 || count > width - x)
-                throw ImageError("damaged HDR picture: a run does not fit its row");
+            check_run(count > 0 && count <= width - x);
             const auto bytes = file.take(code > 128 ? 1 : count);
             for (std::size_t i = 0; i < count; ++i, ++x)
-                row[4 * x + component] = bytes[code > 128 ? 0 : i];
+                put(x, component, bytes[code > 128 ? 0 : i]);
         }
 }
 
-void read_row(Cursor& file, Bytes& row)
+// Whole pixels. The pixel (1, 1, 1, n) is a run: it repeats the pixel before it n times. Runs
+// without another pixel between them are the digits of one count, to base 256, the lowest first.
+template <class Put>
+void read_plain_row(Cursor& file, std::size_t width, const Put& put)
 {
-    const std::size_t width = row.size() / 4;
+    std::span<const std::uint8_t> last;
+    std::size_t unit = 1;
+    for (std::size_t x = 0; x < width;) {
+        const auto pixel = file.take(4);
+        const bool is_run = pixel[0] == 1 && pixel[1] == 1 && pixel[2] == 1;
+        check_run(!is_run || (!last.empty() && pixel[3] <= (width - x) / unit));
+        const std::size_t count = is_run ? pixel[3] * unit : 1;
+        // A unit above every width leaves room for no further run.
+        unit = !is_run ? 1 : unit <= width ? 256 * unit : unit;
+        last = is_run ? last : pixel;
+        for (std::size_t i = 0; i < count; ++i, ++x)
+            for (std::size_t component = 0; component < 4; ++component)
+                put(x, component, last[component]);
+    }
+}
+
+template <class Put>
+void read_row(Cursor& file, std::size_t width, const Put& put)
+{
     const std::array<std::uint8_t, 4> packed{2, 2, static_cast<std::uint8_t>(width >> 8),
                                              static_cast<std::uint8_t>(width & 255)};
     const auto rest = file.rest();
     const bool may_be_packed = width >= 8 && width < 32768 && rest.size() >= 4;
     if (may_be_packed && std::equal(packed.begin(), packed.end(), rest.begin())) {
         file.take(4);
-        read_packed_row(file, row);
+        read_packed_row(file, width, put);
     } else {
-        const auto plain = file.take(row.size());
-        std::copy(plain.begin(), plain.end(), row.begin());
+        read_plain_row(file, width, put);
     }
+}
+
+// Checks that the file has all rows and nothing else, before memory is allocated for them. A few
+// bytes may encode a long row, so the size of the file does not tell.
+void check_rows(Cursor file, const Size& size)
+{
+    const auto ignore = [](std::size_t, std::size_t, std::uint8_t) {};
+    for (int y = 0; y < size.height; ++y)
+        read_row(file, static_cast<std::size_t>(size.width), ignore);
+    if (!file.rest().empty())
+        throw ImageError("damaged HDR picture: the file goes on after its last row");
 }
 
 void expand(const std::uint8_t* rgbe, float exposure, float* rgb)
@@ -207,15 +246,14 @@ Image<float> decode_hdr(std::span<const std::uint8_t> bytes)
 {
     Cursor file(bytes);
     const auto [size, exposure] = read_header(file);
-    // Two bytes encode one component of at most 127 pixels. Reject a size that the file cannot
-    // hold, before memory is allocated.
-    if (static_cast<double>(size.width) * size.height / 127.0 * 8.0 >
-        static_cast<double>(file.rest().size()))
-        throw ImageError("damaged HDR picture: the file ends early");
+    check_rows(file, size);
     Image<float> image(size.width, size.height);
     Bytes row(4 * static_cast<std::size_t>(size.width));
+    const auto put = [&](std::size_t x, std::size_t component, std::uint8_t byte) {
+        row[4 * x + component] = byte;
+    };
     for (int y = 0; y < size.height; ++y) {
-        read_row(file, row);
+        read_row(file, static_cast<std::size_t>(size.width), put);
         for (int x = 0; x < size.width; ++x)
             expand(&row[4 * static_cast<std::size_t>(x)], exposure, image.pixel(x, y));
     }

@@ -53,50 +53,93 @@ void give_bytes(png_structp png, png_bytep to, std::size_t count)
     unread = unread.subspan(count);
 }
 
-/// Makes libpng return rows of r, g, b with 8 or 16 bits.
-void ask_for_rgb(png_structp png, png_infop info)
+using Palette = std::span<const png_color>;
+
+/// The picture's palette; empty if it has none.
+Palette palette_of(png_structp png, png_infop info)
 {
-    png_set_expand(png);
-    png_set_strip_alpha(png);
-    png_set_gray_to_rgb(png);
+    png_colorp colors = nullptr;
+    int count = 0;
+    if (png_get_color_type(png, info) == PNG_COLOR_TYPE_PALETTE)
+        png_get_PLTE(png, info, &colors, &count);
+    return {colors, static_cast<std::size_t>(count)};
+}
+
+/// Makes libpng return rows of r, g, b with 8 or 16 bits, or of 8-bit indices of the palette.
+/// libpng itself would turn an index beyond the palette into black.
+void set_row_format(png_structp png, png_infop info, Palette palette)
+{
+    if (palette.empty()) {
+        png_set_expand(png);
+        png_set_strip_alpha(png);
+        png_set_gray_to_rgb(png);
+    } else {
+        png_set_packing(png);
+    }
     png_set_interlace_handling(png);
     png_read_update_info(png, info);
 }
 
-void take_row(const std::uint8_t* row, bool wide, std::span<float> to)
+void take_samples(const std::uint8_t* row, bool wide, std::span<float> to)
 {
     for (std::size_t i = 0; i < to.size(); ++i)
         to[i] = wide ? static_cast<float>(row[2 * i] << 8 | row[2 * i + 1]) / 65535.0f
                      : static_cast<float>(row[i]) / 255.0f;
 }
 
-void read_picture(PngState& state)
+void take_indices(png_structp png, const std::uint8_t* row, Palette palette, std::span<float> to)
 {
-    png_read_info(state.png, state.info);
-    const auto width = static_cast<int>(png_get_image_width(state.png, state.info));
-    const auto height = static_cast<int>(png_get_image_height(state.png, state.info));
-    // Rejects impossible sizes before memory is allocated.
-    if (png_get_rowbytes(state.png, state.info) * static_cast<std::size_t>(height) / most_growth >
-        state.unread.size())
+    for (std::size_t i = 0; i < to.size(); i += 3) {
+        const std::size_t index = row[i / 3];
+        if (index >= palette.size())
+            png_error(png, "the colour of a pixel is not in the palette");
+        const png_color& color = palette[index];
+        to[i] = static_cast<float>(color.red) / 255.0f;
+        to[i + 1] = static_cast<float>(color.green) / 255.0f;
+        to[i + 2] = static_cast<float>(color.blue) / 255.0f;
+    }
+}
+
+/// Rejects impossible sizes before memory is allocated.
+void check_size(PngState& state)
+{
+    const std::size_t height = png_get_image_height(state.png, state.info);
+    if (png_get_rowbytes(state.png, state.info) * height / most_growth > state.unread.size())
         png_error(state.png, "the file is too short for its size in pixels");
-    ask_for_rgb(state.png, state.info);
+}
+
+/// Reads the rows into `state.image`, which has the picture's size.
+void read_all_rows(PngState& state, Palette palette)
+{
+    Image<float>& image = state.image;
     const std::size_t row_bytes = png_get_rowbytes(state.png, state.info);
     const bool wide = png_get_bit_depth(state.png, state.info) == 16;
     const bool interlaced = png_get_interlace_type(state.png, state.info) != PNG_INTERLACE_NONE;
-
-    state.image = Image<float>(width, height);
-    const auto give = [&](int y, const std::uint8_t* row) {
-        take_row(row, wide, {state.image.pixel(0, y), 3 * static_cast<std::size_t>(width)});
-    };
     // An interlaced picture has seven passes, each over all its rows.
-    state.samples.resize(interlaced ? row_bytes * static_cast<std::size_t>(height) : row_bytes);
+    state.samples.resize(interlaced ? row_bytes * static_cast<std::size_t>(image.height)
+                                    : row_bytes);
     for (int pass = 0; pass < (interlaced ? PNG_INTERLACE_ADAM7_PASSES : 1); ++pass)
-        for (int y = 0; y < height; ++y) {
+        for (int y = 0; y < image.height; ++y) {
             std::uint8_t* const row =
                 state.samples.data() + (interlaced ? static_cast<std::size_t>(y) * row_bytes : 0);
+            const std::span<float> to(image.pixel(0, y), 3 * static_cast<std::size_t>(image.width));
             png_read_row(state.png, row, nullptr);
-            give(y, row);
+            if (palette.empty())
+                take_samples(row, wide, to);
+            else
+                take_indices(state.png, row, palette, to);
         }
+}
+
+void read_picture(PngState& state)
+{
+    png_read_info(state.png, state.info);
+    check_size(state);
+    const Palette palette = palette_of(state.png, state.info);
+    set_row_format(state.png, state.info, palette);
+    state.image = Image<float>(static_cast<int>(png_get_image_width(state.png, state.info)),
+                               static_cast<int>(png_get_image_height(state.png, state.info)));
+    read_all_rows(state, palette);
     png_read_end(state.png, nullptr);
 }
 

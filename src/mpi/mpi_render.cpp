@@ -244,25 +244,10 @@ void render_frames(const World& world, const RenderJobArguments& arguments, cons
                          .json = arguments.job.json});
 }
 
-/// Throws CLI::ValidationError for options that an MPI job does not support.
-void check_job(const RenderJobArguments& arguments)
-{
-    const auto refuse = [](const std::string& option, const std::string& why) {
-        throw CLI::ValidationError(option + ": " + why);
-    };
-    if (arguments.certainty)
-        refuse("--certainty", "packtrace render writes it");
-    if (arguments.animation.y4m)
-        refuse("--y4m", "ranks write frames; give --frames, and make a video of the pictures");
-    if (arguments.animation.shard)
-        refuse("--shard", "ranks share the frames by themselves; leave it out");
-}
-
 void run_render(const World& world, const RenderJobArguments& arguments)
 {
     RenderOptions options;
     world.together([&] {
-        check_job(arguments);
         options = cli::checked_render_options(arguments);
         if (world.is_first() && !arguments.animation.many())
             check_image_writable(arguments.output);
@@ -281,6 +266,28 @@ void run_render(const World& world, const RenderJobArguments& arguments)
         render_picture(world, arguments, scene, options);
 }
 
+/// Replaces an option that an MPI job does not support by a hidden one that says why. CLI11's own
+/// messages lack the names of hidden options. So the new one takes any value or none, any number of
+/// times, and needs no other option.
+void refuse(CLI::App& command, const std::string& option, const std::string& why)
+{
+    command.remove_option(command.get_option(option));
+    command
+        .add_option_function<std::string>(
+            option, [=](const std::string&) { throw CLI::ValidationError(option + ": " + why); })
+        ->expected(0, 1)
+        ->multi_option_policy(CLI::MultiOptionPolicy::TakeLast)
+        ->group("");
+}
+
+void refuse_options(CLI::App& command)
+{
+    refuse(command, "--certainty", "packtrace render writes it");
+    refuse(command, "--y4m", "ranks write frames; give --frames, and make a video of the pictures");
+    refuse(command, "--fps", "is of videos, and ranks write frames; leave it out");
+    refuse(command, "--shard", "ranks share the frames by themselves; leave it out");
+}
+
 }  // namespace
 
 void add_render(CLI::App& app, const World& world)
@@ -288,9 +295,7 @@ void add_render(CLI::App& app, const World& world)
     CLI::App* command = app.add_subcommand("render", "Render a scene to a picture on all ranks");
     const auto arguments = std::make_shared<RenderJobArguments>();
     cli::add_render_options(*command, *arguments);
-    // Hidden from the help. check_job() rejects them with a reason.
-    for (const char* const refused : {"--certainty", "--y4m", "--fps", "--shard"})
-        command->get_option(refused)->group("");
+    refuse_options(*command);
     add_job_options(*command, arguments->job);
     command->callback([arguments, &world] { run_render(world, *arguments); });
 }

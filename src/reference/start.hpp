@@ -59,18 +59,19 @@ template <class Real, class Body>
 }
 
 /// Whether `own`, a hit of the body that the ray starts on, comes before `other`, the hit of
-/// another body. If both are close, the other body is solved from `start.on` as well, as the own
-/// body was. If both then are in one place, the lower object number is hit, however either t was
-/// rounded.
+/// another body. If both are close, for t and for the place of the start, the other body is solved
+/// from `start.on` as well, as the own body was. If both then are in one place, the lower object
+/// number is hit, however either t was rounded.
 template <class Real>
 [[nodiscard]] bool own_hit_is_first(const Bodies<Real>& bodies, const Start<Real>& start,
                                     const Vec3<Real>& D, const Hit<Real>& own,
                                     const Hit<Real>& other)
 {
-    const Real near = Real(0x1p-12) * own.t;
+    const Real place = size_of(start.on) / std::sqrt(dot(D, D));
+    const Real near = std::min(Real(0x1p-12) * own.t + Real(0x1p-42) * place, Real(0.125) * own.t);
     if (!(std::abs(other.t - own.t) <= near))
         return own.t < other.t;
-    constexpr Real one_place = 256 * std::numeric_limits<Real>::epsilon();
+    constexpr Real roundoff = std::numeric_limits<Real>::epsilon();
     Real apart = other.t - own.t;
     visit_bodies(bodies, [&](const auto& body) {
         if (body.object != other.object)
@@ -83,7 +84,8 @@ template <class Real>
             }
         return false;
     });
-    return std::abs(apart) <= one_place * own.t ? own.object < other.object : apart > 0;
+    const Real one_place = 256 * roundoff * own.t + 4 * roundoff * place;
+    return std::abs(apart) <= one_place ? own.object < other.object : apart > 0;
 }
 
 /// The closest hit from `start` on, up to t_max.

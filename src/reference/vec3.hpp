@@ -104,6 +104,13 @@ template <class Real>
     return a / length(a);
 }
 
+/// The sum of the magnitudes of a vector's components.
+template <class Real>
+[[nodiscard]] Real size_of(const Vec3<Real>& a)
+{
+    return std::abs(a.x) + std::abs(a.y) + std::abs(a.z);
+}
+
 /// As normalize(), but also right where the squares overflow or vanish. None for a vector that is
 /// zero or not finite.
 template <class Real>
@@ -113,7 +120,7 @@ template <class Real>
     const Real square = dot(a, a);
     if (square >= Limits::min() && square <= Limits::max())
         return a / std::sqrt(square);
-    const Real size = std::abs(a.x) + std::abs(a.y) + std::abs(a.z);
+    const Real size = size_of(a);
     if (!(size > 0 && size <= Limits::max()))
         return std::nullopt;
     return normalize(a / std::max({std::abs(a.x), std::abs(a.y), std::abs(a.z)}));

@@ -3,6 +3,8 @@
 import os
 import signal
 import struct
+import subprocess
+import sys
 import tempfile
 import threading
 import time
@@ -105,12 +107,61 @@ class TestRender(unittest.TestCase):
         self.assertLess(calls[0], 1)
 
     def test_ctrl_c_stops_rendering(self):
-        timer = threading.Timer(0.05, signal.raise_signal, (signal.SIGINT,))
-        timer.start()
-        # The call takes seconds; the signal arrives long before its end.
-        with self.assertRaises(KeyboardInterrupt):
-            pt.render(lit_scene(), width=2048, samples=64)
-        timer.join()
+        flake = pt.generate_sphereflake(4)
+        # The calls take seconds and minutes; the signal arrives long before their end.
+        for call in (lambda: pt.render(lit_scene(), width=2048, samples=64),
+                     lambda: pt.render(flake, width=2000, height=2000, kernel="scalar", threads=2),
+                     lambda: pt.render(flake, width=2000, height=2000, kernel="scalar",
+                                       progress=lambda share: None)):
+            timer = threading.Timer(0.1, os.kill, (os.getpid(), signal.SIGINT))
+            began = time.monotonic()
+            timer.start()
+            with self.assertRaises(KeyboardInterrupt):
+                call()
+            self.assertLess(time.monotonic() - began, 5)
+            timer.join()
+
+    def test_a_picture_without_memory_says_so(self):
+        # In a process of its own, whose memory is limited.
+        done = subprocess.run([sys.executable, "-c", """if True:
+            import resource
+            import packtrace as pt
+            pt.render(pt.Scene(), width=8, threads=1)
+            resource.setrlimit(resource.RLIMIT_AS, (2**32, 2**32))
+            try:
+                pt.render(pt.Scene(), width=40000, height=30000)
+            except MemoryError as error:
+                print(error)"""], capture_output=True, text=True, check=True)
+        self.assertEqual(done.stdout, "not enough memory for 40000 x 30000 pixels, which alone take "
+                                      "14.4 GB; render fewer pixels at once\n")
+
+    def test_progress_that_is_no_function_is_refused(self):
+        for call in (pt.render, pt.report):
+            with self.assertRaisesRegex(TypeError, "^progress is 3; use a function or None$"):
+                call(lit_scene(), progress=3)
+
+    def test_a_forked_process_renders(self):
+        # Without the threads of its parent. In a process of its own, which has no other threads.
+        done = subprocess.run([sys.executable, "-c", """if True:
+            import os
+            import packtrace as pt
+            scene = pt.generate_sphereflake(1)
+            picture = pt.render(scene, width=32, threads=1)
+            child = os.fork()
+            if child == 0:
+                os._exit(3 if (pt.render(scene, width=32, threads=1) == picture).all() else 4)
+            print(os.waitstatus_to_exitcode(os.waitpid(child, 0)[1]))"""],
+                              capture_output=True, text=True, check=True, timeout=60)
+        self.assertEqual(done.stdout, "3\n")
+
+    def test_many_renders_take_no_more_memory(self):
+        scene = lit_scene(width=16, height=16)
+        for _ in range(500):
+            pt.render(scene)
+        before, _ = resident_bytes()
+        for _ in range(2000):
+            pt.render(scene)
+        self.assertLess(resident_bytes()[0] - before, 4_000_000)
 
     def test_regions(self):
         scene = lit_scene(width=100, height=80)
@@ -140,10 +191,12 @@ class TestRender(unittest.TestCase):
                                  ("height is 1.5; use a whole number", {"height": 1.5}),
                                  ("dtype is int32; use np.float32", {"dtype": np.int32}),
                                  ("^dtype is 'x'; use np.float32", {"dtype": "x"}),
-                                 ("^height is 4294967296; use a whole number from", {"height": 2**32}),
+                                 ("^height is 4294967296; use a smaller whole number$", {"height": 2**32}),
                                  ("^the scalar kernel has no isa", {"kernel": "scalar", "isa": "avx2"}),
                                  ("^the scalar kernel has no force_general",
                                   {"kernel": "scalar", "force_general": True}),
+                                 ("threads is 1000000; use 0, .* up to 1024", {"threads": 10**6}),
+                                 ("^width is -109.*; use a larger whole number$", {"width": -2**40}),
                                  ("samples", {"samples": 0}),
                                  ("adaptive", {"adaptive": -1.0, "samples": 4}),
                                  ("accuracy is 'auto'; use one of 'fast', 'exact'",

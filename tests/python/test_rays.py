@@ -1,9 +1,12 @@
 """Rays: answers equal those of the program, bit for bit; arrays are neither copied nor converted."""
 
 import dataclasses
+import os
 import signal
 import threading
+import time
 import unittest
+import warnings
 
 import numpy as np
 
@@ -375,6 +378,7 @@ class TestArrays(unittest.TestCase):
         for message, options in (("kernel is 'gpu'; use one of 'packet', 'scalar'", {"kernel": "gpu"}),
                                  ("isa.*mmx", {"isa": "mmx"}),
                                  ("threads is -1", {"threads": -1}),
+                                 ("threads is 1000000; use 0, .* up to 1024", {"threads": 10**6}),
                                  ("lanes is 'many'", {"lanes": "many"}),
                                  ("lanes is 3; use 0, for the most, or", {"lanes": 3}),
                                  ("^dtype is 'x'; use np.float32 or np.float64", {"dtype": "x"}),
@@ -393,6 +397,57 @@ class TestArrays(unittest.TestCase):
         hits = self.rays.closest(origins, directions)
         self.assertFalse(hits.hit[::2].any())
         self.assertTrue(hits.hit[1::2].any())
+
+
+    def test_t_max_beyond_float32_is_infinity(self):
+        origins, directions = random_rays(100, np.float32)
+        with warnings.catch_warnings():
+            warnings.simplefilter("error")
+            for most in (1e300, np.float64(1e300), [1e300] * 100):
+                hits = self.rays.closest(origins, directions, 0, most)
+                np.testing.assert_array_equal(hits.t, self.rays.closest(origins, directions).t)
+
+    def test_vectors_beyond_float32_are_refused(self):
+        origins, directions = random_rays(100, np.float32)
+        with warnings.catch_warnings():
+            warnings.simplefilter("error")
+            with self.assertRaisesRegex(ValueError, "^directions is .*, beyond float32; use"):
+                self.rays.closest(origins, (0, 0, 1e300))
+            with self.assertRaisesRegex(ValueError, "^origins is .*, beyond float32; use"):
+                self.rays.occluded((0, np.inf, -1e300), directions)
+            hits = self.rays.closest(origins, directions, detail="start")
+            with self.assertRaisesRegex(ValueError, "^directions is .*, beyond float32; use"):
+                hits.leave((0, 0, 1e300))
+            # As in arrays, infinity itself is not checked.
+            self.assertFalse(self.rays.occluded((0, 0, np.inf), directions).any())
+
+    def test_a_negative_t_min_is_refused(self):
+        asks = (self.rays.closest, self.rays.occluded, self.rays.all_hits,
+                lambda *rays: self.rays.bounds(*rays[:2], 0, *rays[2:]))
+        for dtype in DTYPES:
+            origins, directions = random_rays(5, dtype)
+            several = np.array([0, np.nan, -2, 1, -1], dtype)
+            for ask in asks:
+                with self.assertRaisesRegex(ValueError, r"^t_min is -0\.5; use 0 or more$"):
+                    ask(origins, directions, -0.5)
+                with self.assertRaisesRegex(ValueError, r"^t_min has -2\.0; use 0 or more$"):
+                    ask(origins, directions, several)
+                ask(origins[:0], directions[:0], several[:0])
+            least = np.array([0, -0.0, np.nan, np.inf, 0], dtype)
+            self.assertFalse(self.rays.closest(origins, directions, least).hit[2:4].any())
+            self.assertFalse(self.rays.occluded(origins, directions, np.nan).any())
+
+    def test_lit_refuses_numbers_of_no_surface(self):
+        lit = pt.RayScene(pt.Scene(objects=[pt.Object(pt.Sphere((0, 0, 5), 1))],
+                                   lights=[pt.Light("point", 1, (0, 5, 0))]))
+        hits = lit.closest((0, 0, 0), [(0, 0, 1.0), (0, 1, 0)], detail="start")
+        self.assertFalse(lit.lit(hits, 0)[1])
+        hits.surface[0] = -1
+        lit.lit(hits, 0)
+        for number in (-2, -12345):
+            hits.surface[0] = number
+            with self.assertRaisesRegex(ValueError, f"^hits.surface has {number}; use"):
+                lit.lit(hits, 0)
 
 
 class TestMoving(unittest.TestCase):
@@ -501,11 +556,53 @@ class TestInterrupts(unittest.TestCase):
         count = 3_000_000
         directions = np.broadcast_to((0.0, 0.0, 1.0), (count, 3))
         # Bounds take seconds; the signal arrives long before their end.
-        timer = threading.Timer(0.05, signal.raise_signal, (signal.SIGINT,))
+        self.interrupt(lambda: rays.bounds((0, 0, 0), directions, np.zeros(count, np.int32)))
+
+    def interrupt(self, call):
+        """Ctrl-C soon after the call begins must end it within a few seconds."""
+        timer = threading.Timer(0.1, os.kill, (os.getpid(), signal.SIGINT))
+        began = time.monotonic()
         timer.start()
         with self.assertRaises(KeyboardInterrupt):
-            rays.bounds((0, 0, 0), directions, np.zeros(count, np.int32))
+            call()
+        self.assertLess(time.monotonic() - began, 5)
         timer.join()
+
+    def test_ctrl_c_stops_the_scalar_kernel(self):
+        scene = pt.generate_sphereflake(4)
+        scene.lights = [pt.Light("point", 1, (0, 5, 0))]
+        count = 1_000_000    # a minute on one thread
+        directions = np.broadcast_to((0.0, 0.0, 1.0), (count, 3))
+        for threads in (1, 2, 0):
+            rays = pt.RayScene(scene, kernel="scalar", threads=threads, dtype=np.float64)
+            for ask in (rays.closest, rays.occluded, rays.all_hits):
+                with self.subTest(threads=threads, ask=ask.__name__):
+                    self.interrupt(lambda: ask((0, 0, -5), directions))
+            with self.subTest(threads=threads, ask="lit"):
+                self.interrupt(lambda: rays.lit(directions, 0))
+
+    def test_ctrl_c_leaves_a_scene_that_answers(self):
+        rays = pt.RayScene(pt.generate_sphereflake(4), kernel="scalar", threads=2)
+        directions = np.broadcast_to((0.0, 0.0, 1.0), (1_000_000, 3))
+        before = rays.closest((0, 0, -5), directions[:100])
+        self.interrupt(lambda: rays.closest((0, 0, -5), directions))
+        np.testing.assert_array_equal(rays.closest((0, 0, -5), directions[:100]).t, before.t)
+
+    def test_a_signal_that_raises_nothing_changes_nothing(self):
+        arrived = []
+        scene = pt.generate_sphereflake(4)    # a second of work
+        before = signal.signal(signal.SIGALRM, lambda *_: arrived.append(1))
+        signal.setitimer(signal.ITIMER_REAL, 0.02, 0.02)
+        try:
+            origins, directions = random_rays(20_000)
+            rays = pt.RayScene(scene, kernel="scalar", threads=2)
+            found = rays.closest(origins, directions)
+        finally:
+            signal.setitimer(signal.ITIMER_REAL, 0)
+            signal.signal(signal.SIGALRM, before)
+        self.assertGreater(len(arrived), 0)
+        expected = pt.RayScene(scene, kernel="scalar").closest(origins, directions)
+        np.testing.assert_array_equal(found.t, expected.t)
 
 
 class TestMemory(unittest.TestCase):

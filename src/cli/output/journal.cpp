@@ -81,13 +81,9 @@ std::filesystem::path end_of_link(const std::filesystem::path& name)
     return end;
 }
 
-}  // namespace
-
-Journal::Journal(const std::filesystem::path& output, const std::string& head,
-                 std::string (*differs)(const std::string& before, const std::string& now))
-    : output_(end_of_link(output)),
-      journal_name_(beside(output, ".journal")),
-      part_name_(beside(output, ".part"))
+/// The file that the name stands for, at the end of its links. Throws FileError for a pipe or a
+/// device, whose link may have no end: /dev/stdout may be a pipe without a name.
+std::filesystem::path checked_output(const std::filesystem::path& output)
 {
     std::error_code ignored;
     if (std::filesystem::exists(output, ignored) &&
@@ -95,6 +91,17 @@ Journal::Journal(const std::filesystem::path& output, const std::string& head,
         throw FileError(output.string() +
                         ": --resume: is no regular file, beside which a journal could lie; "
                         "leave out --resume");
+    return end_of_link(output);
+}
+
+}  // namespace
+
+Journal::Journal(const std::filesystem::path& output, const std::string& head,
+                 std::string (*differs)(const std::string& before, const std::string& now))
+    : output_(checked_output(output)),
+      journal_name_(beside(output_, ".journal")),
+      part_name_(beside(output_, ".part"))
+{
     open(head, differs);
 }
 

@@ -12,7 +12,8 @@
 namespace packtrace::cli {
 
 /// The files of an interrupted run beside its output: a journal `OUTPUT.journal` of finished
-/// pieces, and `OUTPUT.part` with their bytes. The journal begins with a head, which has everything
+/// pieces, and `OUTPUT.part` with their bytes. If the output is a link, they lie beside the file at
+/// its end, which may be on another disk. The journal begins with a head, which has everything
 /// that the pieces depend on; a file without a complete head is not yet a journal. Each line has a
 /// checksum, so that truncated lines are ignored. A run locks its journal. All members throw
 /// FileError.

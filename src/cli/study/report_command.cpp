@@ -6,6 +6,7 @@
 #include "cli/options/thread_limit.hpp"
 #include "cli/options/validators.hpp"
 #include "cli/output/progress_bar.hpp"
+#include "cli/study/report_files.hpp"
 #include "core/atomic_file.hpp"
 #include "core/check_number.hpp"
 #include "lab/harness/machine.hpp"
@@ -222,7 +223,9 @@ void write_whole_report(const std::vector<SceneReport>& reports, const ReportOpt
                                       compiler_name(),   built_commit,
                                       arguments.command, kernel_flags,
                                       load_at_start(),   load_now()};
+    ReportFiles files(reports, arguments.folder);
     write_report(reports, options, conditions, arguments.folder);
+    files.keep();
 }
 
 namespace {

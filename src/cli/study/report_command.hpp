@@ -43,7 +43,7 @@ void check_report_target(const ReportArguments& arguments);
 /// Prints the recommended runs of a scene.
 void print_judgement(const SceneReport& scene, const ReportOptions& options);
 
-/// Writes the report into its folder.
+/// Writes the report into its folder. If that fails, the files it created are removed again.
 void write_whole_report(const std::vector<SceneReport>& reports, const ReportOptions& options,
                         const ReportArguments& arguments);
 

@@ -47,7 +47,7 @@ void add_stress_options(CLI::App& command, StressArguments& arguments)
     command.add_option("--family", options.families, "Only this family of rays (repeatable)")
         ->check(one_of_many(family_names(), "a family that --list names"))
         ->type_name("NAME");
-    command.add_flag("--list", arguments.list, "List the families");
+    command.add_flag("--list", arguments.list, "List the families; only with --family and --json");
     command.add_option("--rays", options.rays, "Rays of each family (default 4096)")
         ->check(whole_number(1, most_rays))
         ->type_name("N");
@@ -76,6 +76,16 @@ void add_stress_options(CLI::App& command, StressArguments& arguments)
         ->check(folder_name())
         ->type_name("FOLDER");
     command.add_flag("--json", arguments.json, "Print JSON");
+}
+
+void check_list_options(const CLI::App& command, const StressArguments& arguments)
+{
+    if (!arguments.list)
+        return;
+    for (const CLI::Option* option : command.get_options())
+        if (const std::string name = option->get_name();
+            option->count() > 0 && name != "--list" && name != "--family" && name != "--json")
+            throw CLI::ValidationError(name + ": --list traces no rays; leave one out");
 }
 
 lab::StressOptions stress_options(const StressArguments& arguments)
@@ -160,7 +170,10 @@ void add_stress(CLI::App& app)
     add_shard_option(
         *command, arguments->shard,
         "Only families I, I + N and so on; packtrace join makes one JSON of the parts");
-    command->callback([arguments] { run_stress_command(*arguments); });
+    command->callback([arguments, command] {
+        check_list_options(*command, *arguments);
+        run_stress_command(*arguments);
+    });
 }
 
 }  // namespace packtrace::cli

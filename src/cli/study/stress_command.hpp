@@ -32,6 +32,9 @@ void add_stress_options(CLI::App& command, StressArguments& arguments);
 /// CLI::ValidationError for unknown ones.
 [[nodiscard]] lab::StressOptions stress_options(const StressArguments& arguments);
 
+/// With --list: throws CLI::ValidationError for options that only a trace of rays uses.
+void check_list_options(const CLI::App& command, const StressArguments& arguments);
+
 void print_stress_families(const StressArguments& arguments);
 
 /// Prints the rows of a stress test and its verdict, or JSON. Writes the cases if `--cases` is

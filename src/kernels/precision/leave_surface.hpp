@@ -42,10 +42,29 @@ inline StartPacket<Real> no_start()
     return {{zero, zero, zero}, no_surface<Real>(), no_second_hit<Real>()};
 }
 
-/// If another hit is within this share of t of the hit with the own object, both are compared again
-/// (met_again.hpp).
+/// If another hit is so close to the hit with the own object, both are compared again
+/// (met_again.hpp). Other surfaces are searched for from the offset origin (origin_offset()), which
+/// moves their t by the offset over the slope at which the ray meets them.
+struct Closeness {
+    double of_t;      ///< as a share of t
+    double of_start;  ///< as a share of the start's coordinates, in lengths of the ray
+};
 template <class Real>
-inline constexpr double nearly_met = sizeof(Real) == sizeof(float) ? 0x1p-12 : 0x1p-40;
+inline constexpr Closeness nearly_met = sizeof(Real) == sizeof(float) ? Closeness{0x1p-12, 0x1p-17}
+                                                                      : Closeness{0x1p-40, 0x1p-42};
+
+/// The same in t, for the hit of `start` with its own object. At most an eighth of t, so that what
+/// is compared again lies well beyond the start.
+template <class Real>
+inline vreal<Real> near_own_hit(const StartPacket<Real>& start, const vreal<Real>& dir2)
+{
+    constexpr Closeness share = nearly_met<Real>;
+    const vreal<Real> of_start = vreal<Real>(static_cast<Real>(share.of_start)) *
+                                 size_of(start.point) * (vreal<Real>(Real(1)) / sqrt(dir2));
+    const vreal<Real>& t = start.second.t;
+    return min(madd(vreal<Real>(static_cast<Real>(share.of_t)), t, of_start),
+               vreal<Real>(Real(0.125)) * t);
+}
 
 /// The error of the t at which rays hit their own object again, compared with hits of other
 /// surfaces: those are searched for from the offset origin (origin_offset()), and t is rounded.
@@ -77,13 +96,13 @@ inline HitPacket<Real> start_of_search(const StartPacket<Real>& start, const vre
             return hit;
         vreal<float> error = met_again_error(start, dir2);
         if constexpr (F.exact)
-            error = max(error, vreal<float>(static_cast<float>(nearly_met<float>)) * second);
+            error = max(error, near_own_hit(start, dir2));
         hit.t = select(again, second + error, t_max);
         hit.t_low = select(again, second - error, t_max);
     } else {
         // The search continues a little further, to find surfaces at the same position.
-        const vreal<Real> little_beyond = second * vreal<Real>(1.0 + nearly_met<Real>);
-        hit.t = select(again, min(little_beyond, t_max), t_max);
+        if (any(again))
+            hit.t = select(again, min(second + near_own_hit(start, dir2), t_max), t_max);
     }
     return hit;
 }

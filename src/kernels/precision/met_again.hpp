@@ -13,9 +13,23 @@ struct MetAgain {
     std::int32_t surface;
 };
 
-/// Two surfaces within this share of t count as at the same position: double cannot tell which is
+/// What `share` is in t for a ray that hits its own object again.
+inline double near_own_hit(const MetAgain& again, const double (&dir)[3],
+                           const Closeness& share = nearly_met<float>)
+{
+    double size = 0;
+    double length2 = 0;
+    for (int axis = 0; axis < 3; ++axis) {
+        size += magnitude(again.start[axis]);
+        length2 += dir[axis] * dir[axis];
+    }
+    const double near = share.of_t * again.t + share.of_start * size / __builtin_sqrt(length2);
+    return near < 0.125 * again.t ? near : 0.125 * again.t;
+}
+
+/// Two surfaces so close to each other count as at the same position: double cannot tell which is
 /// first.
-inline constexpr double one_place = 0x1p-44;
+inline constexpr Closeness one_place{0x1p-44, 0x1p-50};
 
 /// Whether the hit of a ray with its own object comes before the hit at `t` on `surface` (negative:
 /// none). If the two are close, both are searched for again from the ray's start point, because the
@@ -27,18 +41,18 @@ inline bool meets_own_first(const abi::ShapesView& shapes, const MetAgain& again
     if (surface < 0)
         return true;
     const double difference = t - again.t;
-    constexpr double near = nearly_met<float>;
-    if (!(magnitude(difference) <= near * again.t))
+    const double near = near_own_hit(again, dir);
+    if (!(magnitude(difference) <= near))
         return difference > 0;
-    const RayPacket<double> from_start = with_square(broadcast(again.start), broadcast(dir),
-                                                     vreal<double>(again.t * (1.0 - 2.0 * near)));
+    const RayPacket<double> from_start =
+        with_square(broadcast(again.start), broadcast(dir), vreal<double>(again.t - 2.0 * near));
     const auto met_at = [&](std::int64_t number) {
         return first_lane<double>(refine_half(shapes, shapes.index[number], from_start).t);
     };
     const double apart = met_at(surface) - met_at(again.surface);
-    if (magnitude(apart) <= one_place * again.t)
+    if (magnitude(apart) <= near_own_hit(again, dir, one_place))
         return again.surface < surface;
-    return magnitude(apart) <= 4.0 * near * again.t ? apart > 0 : difference > 0;
+    return magnitude(apart) <= 4.0 * near ? apart > 0 : difference > 0;
 }
 
 }  // namespace

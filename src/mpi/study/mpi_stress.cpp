@@ -92,7 +92,10 @@ void add_stress(CLI::App& app, const World& world)
         "stress", "Trace extreme rays, whose hits are known to 113 bits; ranks share the families");
     const auto arguments = std::make_shared<cli::StressArguments>();
     cli::add_stress_options(*command, *arguments);
-    command->callback([arguments, &world] { run_stress_on_ranks(world, *arguments); });
+    command->callback([arguments, command, &world] {
+        cli::check_list_options(*command, *arguments);
+        run_stress_on_ranks(world, *arguments);
+    });
 }
 
 }  // namespace packtrace::mpi

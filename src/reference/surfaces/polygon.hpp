@@ -109,7 +109,7 @@ template <class Real>
     Real t = dot(polygon.normal, to) / slope;
     // Rounding may put the hit of a line along the plane anywhere: it is clamped between the edges.
     // A start in the plane, where every term is 0, has no such error.
-    const Real length = std::abs(D.x) + std::abs(D.y) + std::abs(D.z);
+    const Real length = size_of(D);
     if (!(std::abs(slope) > edge_on<Real> * length)) {
         const Vec3<Real> terms = polygon.normal * to;
         if (terms.x != 0 || terms.y != 0 || terms.z != 0)
