@@ -58,20 +58,13 @@ template <class Real, class Body>
                                        : roots_of(body, start.org, D);
 }
 
-/// Whether `own`, a hit of the body that the ray starts on, comes before `other`, the hit of
-/// another body. If both are close, for t and for the place of the start, the other body is solved
-/// from `start.on` as well, as the own body was. If both then are in one place, the lower object
-/// number is hit, however either t was rounded.
+/// The distance from `own`, a hit of the body that the ray starts on, to `other`, a hit of another
+/// body close to it, if that body is solved from `start.on` as well, as the own body was.
 template <class Real>
-[[nodiscard]] bool own_hit_is_first(const Bodies<Real>& bodies, const Start<Real>& start,
-                                    const Vec3<Real>& D, const Hit<Real>& own,
-                                    const Hit<Real>& other)
+[[nodiscard]] Real apart_from(const Bodies<Real>& bodies, const Start<Real>& start,
+                              const Vec3<Real>& D, const Hit<Real>& own, const Hit<Real>& other,
+                              Real near)
 {
-    const Real place = size_of(start.on) / std::sqrt(dot(D, D));
-    const Real near = std::min(Real(0x1p-12) * own.t + Real(0x1p-42) * place, Real(0.125) * own.t);
-    if (!(std::abs(other.t - own.t) <= near))
-        return own.t < other.t;
-    constexpr Real roundoff = std::numeric_limits<Real>::epsilon();
     Real apart = other.t - own.t;
     visit_bodies(bodies, [&](const auto& body) {
         if (body.object != other.object)
@@ -84,8 +77,29 @@ template <class Real>
             }
         return false;
     });
-    const Real one_place = 256 * roundoff * own.t + 4 * roundoff * place;
-    return std::abs(apart) <= one_place ? own.object < other.object : apart > 0;
+    return apart;
+}
+
+/// Whether `own`, a hit of the body that the ray starts on, comes before `other`, the hit of
+/// another body. If both are close, for t or for the place of the start, both are taken from
+/// `start.on`. If they then are in one place, the lower object number is hit, however either t was
+/// rounded.
+template <class Real>
+[[nodiscard]] bool own_hit_is_first(const Bodies<Real>& bodies, const Start<Real>& start,
+                                    const Vec3<Real>& D, const Hit<Real>& own,
+                                    const Hit<Real>& other)
+{
+    const Real place = size_of(start.on) / std::sqrt(dot(D, D));
+    const Real close = Real(0x1p-12) * own.t;
+    const Real near = std::min(close + Real(0x1p-42) * place, Real(0.125) * own.t);
+    const Real difference = other.t - own.t;
+    if (!(std::abs(difference) <= near))
+        return difference > 0;
+    const Real apart = apart_from(bodies, start, D, own, other, near);
+    constexpr Real roundoff = std::numeric_limits<Real>::epsilon();
+    if (std::abs(apart) <= 256 * roundoff * own.t + 4 * roundoff * place)
+        return own.object < other.object;
+    return std::abs(difference) <= close ? apart > 0 : difference > 0;
 }
 
 /// The closest hit from `start` on, up to t_max.

@@ -13,9 +13,8 @@ struct MetAgain {
     std::int32_t surface;
 };
 
-/// What `share` is in t for a ray that hits its own object again.
-inline double near_own_hit(const MetAgain& again, const double (&dir)[3],
-                           const Closeness& share = nearly_met<float>)
+/// What `share` is in t for a ray that hits its own object again; at most an eighth of that t.
+inline double near_own_hit(const MetAgain& again, const double (&dir)[3], const Closeness& share)
 {
     double size = 0;
     double length2 = 0;
@@ -32,27 +31,31 @@ inline double near_own_hit(const MetAgain& again, const double (&dir)[3],
 inline constexpr Closeness one_place{0x1p-44, 0x1p-50};
 
 /// Whether the hit of a ray with its own object comes before the hit at `t` on `surface` (negative:
-/// none). If the two are close, both are searched for again from the ray's start point, because the
-/// search started from the offset origin and t was rounded. If they are at the same position, as
-/// the foot of a glass and the table, the surface with the lower number is hit.
+/// none). If the two are nearly_met<Real>, both are searched for again from the ray's start point,
+/// because the search started from the offset origin and t was rounded. If they then are at the
+/// same position, as the foot of a glass and the table, the surface with the lower number is hit.
+/// If not, their new order counts where the shares of t are as close.
+template <class Real>
 inline bool meets_own_first(const abi::ShapesView& shapes, const MetAgain& again,
                             const double (&dir)[3], double t, std::int64_t surface)
 {
     if (surface < 0)
         return true;
     const double difference = t - again.t;
-    const double near = near_own_hit(again, dir);
-    if (!(magnitude(difference) <= near))
+    if (!(magnitude(difference) <= near_own_hit(again, dir, nearly_met<Real>)))
         return difference > 0;
+    const double begin = again.t - 2.0 * near_own_hit(again, dir, nearly_met<float>);
     const RayPacket<double> from_start =
-        with_square(broadcast(again.start), broadcast(dir), vreal<double>(again.t - 2.0 * near));
+        with_square(broadcast(again.start), broadcast(dir), vreal<double>(begin));
     const auto met_at = [&](std::int64_t number) {
         return first_lane<double>(refine_half(shapes, shapes.index[number], from_start).t);
     };
     const double apart = met_at(surface) - met_at(again.surface);
     if (magnitude(apart) <= near_own_hit(again, dir, one_place))
         return again.surface < surface;
-    return magnitude(apart) <= 4.0 * near ? apart > 0 : difference > 0;
+    const bool by_start = magnitude(difference) <= nearly_met<Real>.of_t * again.t &&
+                          magnitude(apart) <= 4.0 * nearly_met<float>.of_t * again.t;
+    return by_start ? apart > 0 : difference > 0;
 }
 
 }  // namespace

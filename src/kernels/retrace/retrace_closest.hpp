@@ -23,9 +23,9 @@ inline void find_closest(const abi::SceneView<float>& scene, const WideBundle& b
     for (int ray = 0; ray < bundle.count; ++ray) {
         const MetAgain& again = bundle.again[ray];
         if (again.t < __builtin_inf() &&
-            meets_own_first(scene.shapes, again,
-                            {rays.dir[0][ray], rays.dir[1][ray], rays.dir[2][ray]}, rays.t[ray],
-                            rays.surface[ray])) {
+            meets_own_first<float>(scene.shapes, again,
+                                   {rays.dir[0][ray], rays.dir[1][ray], rays.dir[2][ray]},
+                                   rays.t[ray], rays.surface[ray])) {
             rays.t[ray] = again.t;
             rays.surface[ray] = again.surface;
         }
@@ -102,9 +102,9 @@ inline void correct_met_again(const abi::ShapesView& shapes, const RayPacket<dou
             const MetAgain met{{from.axis[0][lane], from.axis[1][lane], from.axis[2][lane]},
                                t[1][lane],
                                static_cast<std::int32_t>(surface[1][lane])};
-            if (meets_own_first(shapes, met,
-                                {dir.axis[0][lane], dir.axis[1][lane], dir.axis[2][lane]},
-                                t[0][lane], surface[0][lane]))
+            if (meets_own_first<double>(shapes, met,
+                                        {dir.axis[0][lane], dir.axis[1][lane], dir.axis[2][lane]},
+                                        t[0][lane], surface[0][lane]))
                 by_own |= 1u << lane;
         }
     }
