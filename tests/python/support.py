@@ -1,8 +1,11 @@
 """Helpers for the tests of the Python package."""
 
 import os
+import signal
 import subprocess
 import tempfile
+import threading
+import time
 from pathlib import Path
 
 import numpy as np
@@ -64,3 +67,14 @@ def resident_bytes():
 def reset_peak():
     """Resets the peak of the memory to the memory now in use."""
     Path("/proc/self/clear_refs").write_text("5")
+
+
+def interrupt(test, call):
+    """Ctrl-C soon after the call begins must end it within a few seconds."""
+    timer = threading.Timer(0.1, os.kill, (os.getpid(), signal.SIGINT))
+    began = time.monotonic()
+    timer.start()
+    with test.assertRaises(KeyboardInterrupt):
+        call()
+    test.assertLess(time.monotonic() - began, 5)
+    timer.join()

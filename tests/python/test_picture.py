@@ -1,7 +1,6 @@
 """Pictures: results of render, files, comparison, and display in notebooks."""
 
 import os
-import signal
 import struct
 import subprocess
 import sys
@@ -14,7 +13,7 @@ from pathlib import Path
 import numpy as np
 
 import packtrace as pt
-from support import SCENES, hand_scene, program, reset_peak, resident_bytes
+from support import SCENES, hand_scene, interrupt, program, reset_peak, resident_bytes
 
 
 def lit_scene(**fields):
@@ -113,13 +112,7 @@ class TestRender(unittest.TestCase):
                      lambda: pt.render(flake, width=2000, height=2000, kernel="scalar", threads=2),
                      lambda: pt.render(flake, width=2000, height=2000, kernel="scalar",
                                        progress=lambda share: None)):
-            timer = threading.Timer(0.1, os.kill, (os.getpid(), signal.SIGINT))
-            began = time.monotonic()
-            timer.start()
-            with self.assertRaises(KeyboardInterrupt):
-                call()
-            self.assertLess(time.monotonic() - began, 5)
-            timer.join()
+            interrupt(self, call)
 
     def test_a_picture_without_memory_says_so(self):
         # In a process of its own, whose memory is limited.

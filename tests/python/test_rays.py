@@ -1,17 +1,15 @@
 """Rays: answers equal those of the program, bit for bit; arrays are neither copied nor converted."""
 
 import dataclasses
-import os
 import signal
 import threading
-import time
 import unittest
 import warnings
 
 import numpy as np
 
 import packtrace as pt
-from support import HAND_SCENE, SCENES, hand_scene, random_rays, reset_peak, resident_bytes
+from support import HAND_SCENE, SCENES, hand_scene, interrupt, random_rays, reset_peak, resident_bytes
 from support import rows_of_program
 
 DTYPES = (np.float32, np.float64)
@@ -556,17 +554,7 @@ class TestInterrupts(unittest.TestCase):
         count = 3_000_000
         directions = np.broadcast_to((0.0, 0.0, 1.0), (count, 3))
         # Bounds take seconds; the signal arrives long before their end.
-        self.interrupt(lambda: rays.bounds((0, 0, 0), directions, np.zeros(count, np.int32)))
-
-    def interrupt(self, call):
-        """Ctrl-C soon after the call begins must end it within a few seconds."""
-        timer = threading.Timer(0.1, os.kill, (os.getpid(), signal.SIGINT))
-        began = time.monotonic()
-        timer.start()
-        with self.assertRaises(KeyboardInterrupt):
-            call()
-        self.assertLess(time.monotonic() - began, 5)
-        timer.join()
+        interrupt(self, lambda: rays.bounds((0, 0, 0), directions, np.zeros(count, np.int32)))
 
     def test_ctrl_c_stops_the_scalar_kernel(self):
         scene = pt.generate_sphereflake(4)
@@ -577,15 +565,15 @@ class TestInterrupts(unittest.TestCase):
             rays = pt.RayScene(scene, kernel="scalar", threads=threads, dtype=np.float64)
             for ask in (rays.closest, rays.occluded, rays.all_hits):
                 with self.subTest(threads=threads, ask=ask.__name__):
-                    self.interrupt(lambda: ask((0, 0, -5), directions))
+                    interrupt(self, lambda: ask((0, 0, -5), directions))
             with self.subTest(threads=threads, ask="lit"):
-                self.interrupt(lambda: rays.lit(directions, 0))
+                interrupt(self, lambda: rays.lit(directions, 0))
 
     def test_ctrl_c_leaves_a_scene_that_answers(self):
         rays = pt.RayScene(pt.generate_sphereflake(4), kernel="scalar", threads=2)
         directions = np.broadcast_to((0.0, 0.0, 1.0), (1_000_000, 3))
         before = rays.closest((0, 0, -5), directions[:100])
-        self.interrupt(lambda: rays.closest((0, 0, -5), directions))
+        interrupt(self, lambda: rays.closest((0, 0, -5), directions))
         np.testing.assert_array_equal(rays.closest((0, 0, -5), directions[:100]).t, before.t)
 
     def test_a_signal_that_raises_nothing_changes_nothing(self):

@@ -53,15 +53,14 @@ template <class Real>
 inline constexpr Closeness nearly_met = sizeof(Real) == sizeof(float) ? Closeness{0x1p-12, 0x1p-17}
                                                                       : Closeness{0x1p-40, 0x1p-42};
 
-/// The same in t, for the hit of `start` with its own object. At most an eighth of t, so that what
-/// is compared again lies well beyond the start.
+/// The same in t, for rays from `start` that hit their own object at `t`. At most an eighth of t,
+/// so that what is compared again lies well beyond the start.
 template <class Real>
-inline vreal<Real> near_own_hit(const StartPacket<Real>& start, const vreal<Real>& dir2)
+inline vreal<Real> near_own_hit(const Closeness& share, const vreal<Real>& t,
+                                const Vec3v<Real>& start, const vreal<Real>& dir2)
 {
-    constexpr Closeness share = nearly_met<Real>;
-    const vreal<Real> of_start = vreal<Real>(static_cast<Real>(share.of_start)) *
-                                 size_of(start.point) * (vreal<Real>(Real(1)) / sqrt(dir2));
-    const vreal<Real>& t = start.second.t;
+    const vreal<Real> of_start = vreal<Real>(static_cast<Real>(share.of_start)) * size_of(start) *
+                                 (vreal<Real>(Real(1)) / sqrt(dir2));
     return min(madd(vreal<Real>(static_cast<Real>(share.of_t)), t, of_start),
                vreal<Real>(Real(0.125)) * t);
 }
@@ -96,13 +95,15 @@ inline HitPacket<Real> start_of_search(const StartPacket<Real>& start, const vre
             return hit;
         vreal<float> error = met_again_error(start, dir2);
         if constexpr (F.exact)
-            error = max(error, near_own_hit(start, dir2));
+            error = max(error, near_own_hit(nearly_met<Real>, second, start.point, dir2));
         hit.t = select(again, second + error, t_max);
         hit.t_low = select(again, second - error, t_max);
     } else {
         // The search continues a little further, to find surfaces at the same position.
-        if (any(again))
-            hit.t = select(again, min(second + near_own_hit(start, dir2), t_max), t_max);
+        if (any(again)) {
+            const auto near = near_own_hit(nearly_met<Real>, second, start.point, dir2);
+            hit.t = select(again, min(second + near, t_max), t_max);
+        }
     }
     return hit;
 }

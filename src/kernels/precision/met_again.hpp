@@ -13,17 +13,11 @@ struct MetAgain {
     std::int32_t surface;
 };
 
-/// What `share` is in t for a ray that hits its own object again; at most an eighth of that t.
-inline double near_own_hit(const MetAgain& again, const double (&dir)[3], const Closeness& share)
+inline double near_own_hit(const Closeness& share, const MetAgain& again, const double (&dir)[3])
 {
-    double size = 0;
-    double length2 = 0;
-    for (int axis = 0; axis < 3; ++axis) {
-        size += magnitude(again.start[axis]);
-        length2 += dir[axis] * dir[axis];
-    }
-    const double near = share.of_t * again.t + share.of_start * size / __builtin_sqrt(length2);
-    return near < 0.125 * again.t ? near : 0.125 * again.t;
+    const Vec3v<double> d = broadcast(dir);
+    return first_lane<double>(
+        near_own_hit<double>(share, vreal<double>(again.t), broadcast(again.start), dot(d, d)));
 }
 
 /// Two surfaces so close to each other count as at the same position: double cannot tell which is
@@ -42,16 +36,16 @@ inline bool meets_own_first(const abi::ShapesView& shapes, const MetAgain& again
     if (surface < 0)
         return true;
     const double difference = t - again.t;
-    if (!(magnitude(difference) <= near_own_hit(again, dir, nearly_met<Real>)))
+    if (!(magnitude(difference) <= near_own_hit(nearly_met<Real>, again, dir)))
         return difference > 0;
-    const double begin = again.t - 2.0 * near_own_hit(again, dir, nearly_met<float>);
+    const double begin = again.t - 2.0 * near_own_hit(nearly_met<float>, again, dir);
     const RayPacket<double> from_start =
         with_square(broadcast(again.start), broadcast(dir), vreal<double>(begin));
     const auto met_at = [&](std::int64_t number) {
         return first_lane<double>(refine_half(shapes, shapes.index[number], from_start).t);
     };
     const double apart = met_at(surface) - met_at(again.surface);
-    if (magnitude(apart) <= near_own_hit(again, dir, one_place))
+    if (magnitude(apart) <= near_own_hit(one_place, again, dir))
         return again.surface < surface;
     const bool by_start = magnitude(difference) <= nearly_met<Real>.of_t * again.t &&
                           magnitude(apart) <= 4.0 * nearly_met<float>.of_t * again.t;

@@ -46,7 +46,7 @@ struct WideBundle {
         constexpr float largest = std::numeric_limits<float>::max();
         const double t_end = t_max < largest ? t_max : largest;
         const double little_beyond =
-            met.t + near_own_hit(met, {dir[0], dir[1], dir[2]}, nearly_met<float>);
+            met.t + near_own_hit(nearly_met<float>, met, {dir[0], dir[1], dir[2]});
         rays.t[count] = little_beyond < t_end ? little_beyond : t_end;
         rays.surface[count] = -1;
         again[count] = met;

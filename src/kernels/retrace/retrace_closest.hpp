@@ -85,7 +85,8 @@ inline void correct_met_again(const abi::ShapesView& shapes, const RayPacket<dou
     if (again == 0)
         return;
     const std::uint32_t own = again & bits(int_equal(hit.surface, start.second.surface));
-    const vreal<double> near = near_own_hit(start, rays.dir2);
+    const vreal<double> near =
+        near_own_hit(nearly_met<double>, start.second.t, start.point, rays.dir2);
     std::uint32_t open = again & ~own & bits(abs(hit.t - start.second.t) <= near);
     std::uint32_t by_own = own;
     if (open != 0) {
